@@ -1,0 +1,62 @@
+//! Cholesky factorisation of a positive semidefinite matrix.
+
+use super::Health;
+use crate::scalar::{Mask, Real};
+
+/// The lower-triangular S with P = S Sᵀ and diagonal ≥ 0, in place; the strict upper triangle is cleared.
+///
+/// Only the lower triangle of `a` (n × n) is read. A pivot within 64 n ε of its own diagonal element is zero, and
+/// so is its column then; health names the first pivot that is negative, not a number, or a zero with a column that
+/// is not. Those lanes end in NaN.
+///
+/// ```
+/// use givens_core::kernels::cholesky;
+/// let mut p = [4.0, 2.0, 2.0, 3.0];
+/// assert!(cholesky(&mut p, 2).failed().is_none());
+/// assert_eq!((p[0], p[1], p[2]), (2.0, 0.0, 1.0));
+/// let mut indefinite = [1.0, 2.0, 2.0, 1.0];
+/// assert_eq!(cholesky(&mut indefinite, 2).failed(), Some(1));
+/// ```
+#[inline(always)]
+pub fn cholesky<T: Real>(a: &mut [T], n: usize) -> Health<T> {
+    factorise(a, n, |_, own| own)
+}
+
+/// [`cholesky`] of a difference of matrices: a pivot is zero within 64 n ε of `scale`, the diagonal before the
+/// subtraction (length n), since that is the size of its rounding.
+#[inline(always)]
+pub fn cholesky_scaled<T: Real>(a: &mut [T], n: usize, scale: &[T]) -> Health<T> {
+    factorise(a, n, |i, own| T::select(scale[i].lt(own), own, scale[i]))
+}
+
+#[inline(always)]
+fn factorise<T: Real>(a: &mut [T], n: usize, scale: impl Fn(usize, T) -> T) -> Health<T> {
+    let mut health = Health::<T>::good();
+    let zero = T::zero();
+    let tolerance = T::of(64.0 * n as f64 * T::EPSILON);
+    for j in 0..n {
+        let own = a[j * n + j];
+        let rounding = tolerance * scale(j, own);
+        let (head, tail) = a.split_at_mut((j + 1) * n);
+        let row = &mut head[j * n..];
+        let pivot = row[..j].iter().fold(own, |rest, &x| (-x).mul_add(x, rest));
+        let nothing = pivot.abs().le(rounding);
+        health.note(!nothing & !zero.lt(pivot), j);
+        let root = T::select(nothing, zero, pivot.sqrt());
+        let inverse = T::select(nothing, zero, root.recip());
+        for (i, below) in tail.chunks_exact_mut(n).take(n - j - 1).enumerate() {
+            let rest = row[..j].iter().zip(&below[..j]).fold(below[j], |rest, (&x, &y)| (-x).mul_add(y, rest));
+            // |P_ij|² ≤ P_ii P_jj: a zero pivot forces a zero column, to the rounding of both
+            let own = below[j + 1 + i];
+            let bound = (rounding.abs() * (own.abs() + scale(j + 1 + i, own).abs())).sqrt();
+            health.note(nothing & !rest.abs().le(bound), j);
+            below[j] = rest * inverse;
+        }
+        row[j] = root;
+        row[j + 1..].fill(zero);
+    }
+    if health.sick.any() {
+        a[0] = T::select(health.sick, T::of(f64::NAN), a[0]);
+    }
+    health
+}

@@ -1,0 +1,65 @@
+//! Downdate of a triangular factor by one column.
+
+use super::Health;
+use crate::scalar::Real;
+
+/// L with L Lᵀ − v vᵀ in place of L Lᵀ, L lower triangular n × n in rows of length `stride` (`spec` §0).
+///
+/// `v` (length n) is used up. The square of pivot k is r² = L_kk² − v_k², known to τ = 64 ε ‖row k‖ max(L_kk, |v_k|):
+/// below −τ it is the failure that health names; within τ of zero the column is zero and the downdate ends, unless
+/// L_kk and v_k were themselves zero to rounding, when it goes on with the next row.
+///
+/// ```
+/// use givens_core::kernels::downdate;
+/// let mut l = [5.0];
+/// assert!(downdate(&mut l, 1, 1, &mut [3.0]).failed().is_none());
+/// assert_eq!(l[0], 4.0);
+/// assert_eq!(downdate(&mut l, 1, 1, &mut [4.1]).failed(), Some(0));
+/// ```
+#[inline(always)]
+pub fn downdate<T: Real>(l: &mut [T], n: usize, stride: usize, v: &mut [T]) -> Health<T> {
+    let mut health = Health::good();
+    let (zero, one) = (T::zero(), T::one());
+    for k in 0..n {
+        let row = &l[k * stride..k * stride + k + 1];
+        let norm = row.iter().fold(zero, |sum, &x| x.mul_add(x, sum)).sqrt();
+        let (pivot, vk) = (row[k], v[k]);
+        let size = pivot.max(vk.abs());
+        let rounding = T::of(64.0 * T::EPSILON) * norm;
+        let r2 = (pivot - vk) * (pivot + vk);
+        let untouched = vk.same(zero);
+        let absent = size.le(rounding) & !untouched;
+        let spent = r2.abs().le(rounding * size) & !untouched & !absent;
+        health.note(!untouched & !absent & !(-(rounding * size)).le(r2), k);
+        let cleared = spent | absent;
+        let still = cleared | untouched;
+        let r = T::select(cleared, zero, T::select(untouched, pivot, r2.sqrt()));
+        let c = T::select(still, one, r / pivot);
+        let s = T::select(still, zero, vk / pivot);
+        l[k * stride + k] = r;
+        for i in k + 1..n {
+            let below = l[i * stride + k];
+            // a zero square of the pivot forces a zero column: what is left of it must be within its rounding
+            let left = below.abs() - v[i].abs();
+            let row_norm = l[i * stride..i * stride + i + 1].iter().fold(v[i].abs(), |m, &x| m.max(x.abs()));
+            let allowed = (rounding * size).sqrt() * (row_norm + row_norm);
+            health.note(spent & !left.abs().le(allowed), k);
+            let x = (below - s * v[i]) / c;
+            v[i] = T::select(spent, zero, c * v[i] - s * x);
+            l[i * stride + k] = T::select(cleared, zero, x);
+        }
+        v[k] = zero;
+    }
+    health
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn a_zero_pivot_of_both_ends_its_column_only() {
+        let mut l = [0.0, 0.0, 0.0, 2.0];
+        let mut v = [0.0, 1.0];
+        assert!(super::downdate(&mut l, 2, 2, &mut v).failed().is_none());
+        assert!((l[3] - 3.0f64.sqrt()).abs() < 1e-15);
+    }
+}

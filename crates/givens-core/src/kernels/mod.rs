@@ -1,0 +1,20 @@
+//! Triangular matrices: what every filter and smoother is made of. Slices in, caller's memory, no model.
+//!
+//! All matrices are stored row by row. A kernel never branches on one lane of a pack: it reports the lanes that
+//! it could not serve as [`Health`].
+
+mod cholesky;
+mod downdate;
+mod health;
+mod product;
+mod solve;
+mod sweep;
+mod tria;
+
+pub use cholesky::{cholesky, cholesky_scaled};
+pub use downdate::downdate;
+pub use health::Health;
+pub use product::{add_outer, copy_lower, product_lower, square};
+pub use solve::{divide_lower, divide_lower_transposed, solve_lower};
+pub use sweep::sweep;
+pub use tria::tria;

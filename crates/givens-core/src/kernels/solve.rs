@@ -1,0 +1,40 @@
+//! Substitution with triangular factors; a zero pivot gives a zero (`spec` §0: the generalised inverse).
+
+use crate::scalar::Real;
+
+#[inline(always)]
+fn inverse_or_zero<T: Real>(pivot: T) -> T {
+    T::select(pivot.same(T::zero()), T::zero(), pivot.recip())
+}
+
+/// L⁻¹ b in place, L lower triangular n × n in rows of length `stride`.
+#[inline(always)]
+pub fn solve_lower<T: Real>(l: &[T], stride: usize, b: &mut [T]) {
+    for i in 0..b.len() {
+        let row = &l[i * stride..];
+        let rest = row[..i].iter().zip(&b[..i]).fold(b[i], |rest, (&x, &y)| (-x).mul_add(y, rest));
+        b[i] = rest * inverse_or_zero(row[i]);
+    }
+}
+
+/// B / Lᵀ = B L⁻ᵀ in place, B `rows` × n, L lower triangular n × n in rows of length `stride`.
+#[inline(always)]
+pub fn divide_lower_transposed<T: Real>(b: &mut [T], rows: usize, n: usize, l: &[T], stride: usize) {
+    for row in b.chunks_exact_mut(n.max(1)).take(rows) {
+        solve_lower(l, stride, row);
+    }
+}
+
+/// B / L = B L⁻¹ in place, B `rows` × n, L lower triangular n × n in rows of length `stride`.
+#[inline(always)]
+pub fn divide_lower<T: Real>(b: &mut [T], rows: usize, n: usize, l: &[T], stride: usize) {
+    for row in b.chunks_exact_mut(n.max(1)).take(rows) {
+        for j in (0..n).rev() {
+            let g = row[j] * inverse_or_zero(l[j * stride + j]);
+            row[j] = g;
+            for (x, &y) in row[..j].iter_mut().zip(&l[j * stride..]) {
+                *x = (-g).mul_add(y, *x);
+            }
+        }
+    }
+}

@@ -1,0 +1,76 @@
+//! A sweep of Givens rotations: absorbs a linear map of a triangular factor into that factor.
+
+use super::Health;
+use crate::scalar::{Mask, Real};
+
+/// Triangularises [L D; 0 S] in place, L d × d and S n × n lower triangular, D d × n.
+///
+/// The square matrix `a` of d + n rows of that length becomes [T11 0; T21 T22], lower triangular, with diagonal
+/// ≥ 0 if those of L and S are. Every row of D is rotated into its pivot from the last column to the first, which
+/// leaves S triangular throughout; all cosines of a row come from one running sum of squares (`speed`). It is the
+/// measurement update (2010 eq 36) and the smoothing step (2011 Table 3). A row that the earlier ones leave
+/// at most (d + n) ε of is zero; its pivot and column are then zero, as in [`tria`](super::tria()).
+/// `scratch` has length n.
+#[inline(always)]
+pub fn sweep<T: Real>(a: &mut [T], d: usize, n: usize, scratch: &mut [T]) -> Health<T> {
+    let size = d + n;
+    debug_assert!(a.len() >= size * size && scratch.len() >= n);
+    let norms = &mut scratch[..n];
+    let mut health = Health::good();
+    let bound = T::of(size as f64 * T::EPSILON);
+    for q in 0..d {
+        let row = &a[q * size..(q + 1) * size];
+        let pivot = row[q];
+        let settled = row[..q].iter().fold(T::zero(), |sum, &x| x.mul_add(x, sum));
+        let mut sum = pivot * pivot;
+        for (norm, &z) in norms.iter_mut().zip(&row[d..]).rev() {
+            sum = z.mul_add(z, sum);
+            *norm = sum;
+        }
+        let nothing = sum.le(bound * bound * (settled + sum));
+        if nothing.all() {
+            drop_row(a, d, n, q);
+            continue;
+        }
+        health.note(nothing, q);
+        let mut before = pivot;
+        for j in (0..n).rev() {
+            let after = norms[j].sqrt();
+            let z = a[q * size + d + j];
+            let still = z.same(T::zero());
+            let (c, s) = (before / after, z / after);
+            let (c, s) = (T::select(still, T::one(), c), T::select(still, T::zero(), s));
+            before = T::select(still, before, after);
+            // the rows of D still to come, and the rows of S that column j reaches
+            for i in (q + 1..d).chain(d + j..size) {
+                let (x, y) = (a[i * size + d + j], a[i * size + q]);
+                a[i * size + d + j] = c * x - s * y;
+                a[i * size + q] = s.mul_add(x, c * y);
+            }
+            a[q * size + d + j] = T::zero();
+        }
+        a[q * size + q] = before;
+    }
+    health
+}
+
+/// Row q has no pivot: zeroes what is left of it, and turns its column of L into those of the rows below.
+#[inline(never)]
+fn drop_row<T: Real>(a: &mut [T], d: usize, n: usize, q: usize) {
+    let size = d + n;
+    a[q * size + q] = T::zero();
+    a[q * size + d..(q + 1) * size].fill(T::zero());
+    for p in q + 1..d {
+        let (x, y) = (a[p * size + p], a[p * size + q]);
+        if y.same(T::zero()).all() {
+            continue;
+        }
+        let norm = x.hypot(y);
+        let (c, s) = (x / norm, y / norm);
+        for i in p..d {
+            let (x, y) = (a[i * size + p], a[i * size + q]);
+            a[i * size + p] = c * x + s * y;
+            a[i * size + q] = c * y - s * x;
+        }
+    }
+}

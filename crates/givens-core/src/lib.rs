@@ -1,0 +1,14 @@
+//! The mathematics of givens: Gaussian filters and smoothers for nonlinear systems, `no_std`, without allocation in a
+//! step, generic over the scalar.
+//!
+//! Modules in the order in which they may use each other: [`scalar`], [`kernels`], [`model`], [`rule`], [`filter`],
+//! [`smoother`].
+#![cfg_attr(not(any(feature = "std", test)), no_std)]
+#![deny(unsafe_code)]
+
+#[cfg(feature = "alloc")]
+extern crate alloc;
+
+pub mod kernels;
+pub mod model;
+pub mod scalar;

@@ -1,0 +1,46 @@
+//! Models: what moves the state and what measures it, written once over [`Real`](crate::scalar::Real).
+
+mod map;
+mod observation;
+mod stack;
+mod transition;
+pub mod zoo;
+
+pub(crate) use map::{Map, Moving, Sensed};
+pub use map::{linear_by_duals, linear_scratch, points_one_by_one, points_scratch};
+pub use observation::Observation;
+pub use transition::Transition;
+
+/// Where a model is evaluated: time, step, controls and parameters, all of the scalar's type, so that they
+/// may differ from lane to lane and carry derivatives.
+#[derive(Clone, Copy, Debug)]
+pub struct At<'a, T> {
+    /// Time, in the model's unit: the start of a transition, the measurement's own time for an observation.
+    pub t: T,
+    /// Length of the step; zero for an observation.
+    pub dt: T,
+    /// Controls.
+    pub u: &'a [T],
+    /// Parameters.
+    pub p: &'a [T],
+}
+
+/// The shape in which a model states a noise covariance.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Noise {
+    /// A root with this many columns: C = B Bᵀ, B of size dimension × columns. None: no noise.
+    Root(usize),
+    /// The covariance itself, dimension × dimension, positive semidefinite.
+    Covariance,
+}
+
+impl Noise {
+    /// Columns of the root that a filter works with, for a noise of dimension `n`.
+    #[must_use]
+    pub const fn columns(self, n: usize) -> usize {
+        match self {
+            Noise::Root(columns) => columns,
+            Noise::Covariance => n,
+        }
+    }
+}

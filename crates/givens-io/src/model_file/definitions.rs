@@ -2,13 +2,13 @@
 
 use std::collections::{BTreeSet, HashMap};
 
-use givens_expr::{Input, Meaning, names, suggest};
+use givens_expr::{Input, Meaning, names, parse_any, suggest};
 
 use super::context::Context;
 use super::document::{Entry, Kind};
 use super::names::{Names, Use};
 use super::section::Section;
-use super::vocabulary::{Role, broken};
+use super::vocabulary::{Role, broken, expression_by};
 use crate::findings::{Findings, list};
 
 /// Reads the parameters and takes up those that are set from outside. A parameter may be an expression in those
@@ -67,7 +67,9 @@ pub(super) fn lets(context: &mut Context, section: Option<Section>, taken: &mut 
     let mut scope = context.scope(Role::Let);
     for &index in &order.done {
         let Some(entry) = entries.get(index) else { continue };
-        let node = context.expression(&scope, &entry.value, &format!("`{}`", entry.key));
+        let what = format!("`{}`", entry.key);
+        // A definition may be a condition, for `where`.
+        let node = expression_by(parse_any, context.findings, &mut context.graph, &scope, &entry.value, &what);
         context.vocabulary.define(&mut context.graph, &entry.key, node);
         let node = node.unwrap_or_else(|| broken(&mut context.graph));
         scope.insert(entry.key.as_str(), Meaning::Is(node));

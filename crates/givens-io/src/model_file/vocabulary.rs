@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use givens_expr::{Graph, Input, Meaning, Node, Scope, names, parse};
+use givens_expr::{ExprError, Graph, Input, Meaning, Node, Scope, names, parse};
 
 use super::document::{Entry, Kind, Value};
 use crate::findings::Findings;
@@ -112,14 +112,30 @@ pub(super) fn expression(
     value: &Value,
     what: &str,
 ) -> Option<Node> {
+    expression_by(parse, findings, graph, scope, value, what)
+}
+
+/// How a text becomes a node.
+type Read = fn(&mut Graph, &Scope, &str) -> Result<Node, ExprError>;
+
+/// [`expression`] by another reader of text.
+pub(super) fn expression_by(
+    read: Read,
+    findings: &Findings,
+    graph: &mut Graph,
+    scope: &Scope,
+    value: &Value,
+    what: &str,
+) -> Option<Node> {
     match &value.kind {
         Kind::Number(number, _) if number.is_finite() => Some(graph.constant(*number)),
         Kind::Number(..) => {
             findings.wrong_help(&value.span, format!("{what} is not a finite number"), "write a finite number");
             None
         }
-        Kind::Text(text, _) => match parse(graph, scope, text) {
-            Ok(node) => (!graph.inputs_of(node).contains(&BROKEN)).then_some(node),
+        Kind::Text(text, _) if names(text).any(|(_, name)| is_broken(graph, scope, name)) => None,
+        Kind::Text(text, _) => match read(graph, scope, text) {
+            Ok(node) => Some(node),
             Err(error) => {
                 findings.wrong_maybe(&value.within(&error.span), format!("{} in {what}", error.message), error.help);
                 None
@@ -131,6 +147,10 @@ pub(super) fn expression(
             None
         }
     }
+}
+
+fn is_broken(graph: &Graph, scope: &Scope, name: &str) -> bool {
+    matches!(scope.get(name), Some(Meaning::Is(node)) if graph.inputs_of(*node).contains(&BROKEN))
 }
 
 /// The controls that expressions below an entry use, in order of first use.

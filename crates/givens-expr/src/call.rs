@@ -1,6 +1,6 @@
 //! Calls of functions.
 
-use std::ops::Range;
+use core::ops::Range;
 
 use crate::error::ExprError;
 use crate::function::{Body, Function, function, functions};

@@ -1,6 +1,6 @@
 //! Exact derivatives by symbol.
 
-use std::f64::consts::LOG10_E;
+use core::f64::consts::LOG10_E;
 
 use crate::graph::{Graph, GraphError, Input, Node, Op};
 use crate::operation::{Binary, Unary};
@@ -169,9 +169,7 @@ impl Graph {
                 let first = self.binary(Binary::Less, b, a);
                 self.select(first, da, db)
             }
-            Binary::Less | Binary::LessEqual | Binary::Equal | Binary::And | Binary::Or => {
-                self.constant(0.0)
-            }
+            Binary::Less | Binary::LessEqual | Binary::Equal | Binary::And | Binary::Or => self.constant(0.0),
         }
     }
 

@@ -1,7 +1,7 @@
 //! What is wrong with an expression, where, and what to do about it.
 
-use std::fmt;
-use std::ops::Range;
+use core::fmt;
+use core::ops::Range;
 
 /// An error in the text of an expression.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -35,4 +35,4 @@ impl fmt::Display for ExprError {
     }
 }
 
-impl std::error::Error for ExprError {}
+impl core::error::Error for ExprError {}

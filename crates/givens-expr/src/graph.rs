@@ -1,7 +1,7 @@
 //! The graph in which expressions meet: every distinct subexpression stands in it once.
 
+use core::fmt;
 use std::collections::{BTreeSet, HashMap};
-use std::fmt;
 
 use givens_core::scalar::Real;
 
@@ -234,4 +234,4 @@ impl fmt::Display for GraphError {
     }
 }
 
-impl std::error::Error for GraphError {}
+impl core::error::Error for GraphError {}

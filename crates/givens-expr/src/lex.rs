@@ -1,6 +1,6 @@
 //! From text to tokens.
 
-use std::ops::Range;
+use core::ops::Range;
 
 use crate::error::ExprError;
 use crate::hints;
@@ -19,8 +19,7 @@ pub(crate) enum Token<'t> {
 const SIGNS: [&str; 14] = ["<=", ">=", "==", "!=", "<", ">", "+", "-", "*", "/", "^", "(", ")", ","];
 
 /// Signs of other languages that begin with one of ours, or that belong together.
-const FOREIGN: [&str; 13] =
-    ["===", "!==", "**", "//", "<>", "=<", "=>", "&&", "||", "~=", "=", "!", "."];
+const FOREIGN: [&str; 13] = ["===", "!==", "**", "//", "<>", "=<", "=>", "&&", "||", "~=", "=", "!", "."];
 
 pub(crate) struct Lexer<'t> {
     text: &'t str,
@@ -165,7 +164,7 @@ pub fn is_name(text: &str) -> bool {
 /// ```
 pub fn names(text: &str) -> impl Iterator<Item = (Range<usize>, &str)> {
     let mut lexer = Lexer::new(text);
-    std::iter::from_fn(move || {
+    core::iter::from_fn(move || {
         loop {
             match lexer.next() {
                 Ok((Token::Name(name), span)) => return Some((span, name)),

@@ -1,6 +1,6 @@
 //! From text to the graph, by precedence climbing.
 
-use std::ops::Range;
+use core::ops::Range;
 
 use crate::call::call;
 use crate::error::ExprError;
@@ -62,7 +62,9 @@ pub fn parse_any(graph: &mut Graph, scope: &Scope, text: &str) -> Result<Node, E
     let mut parser = Parser { graph, scope, text, lexer: Lexer::new(text), token, span, last: 0, depth: 0 };
     parser.advance()?;
     if parser.token == Token::End {
-        return Err(ExprError::new(0..text.len(), "the expression is empty").help("write a number or a formula"));
+        return Err(
+            ExprError::new(0..text.len(), "the expression is empty").help("write a number or a formula")
+        );
     }
     let term = parser.expression(ANY)?;
     parser.end()?;
@@ -100,7 +102,9 @@ impl<'p> Parser<'p> {
     pub(crate) fn expression(&mut self, least: u8) -> Result<Term, ExprError> {
         if self.depth >= MAX_DEPTH {
             let message = format!("the expression is nested more than {MAX_DEPTH} deep");
-            return Err(ExprError::new(self.span.clone(), message).help("give a part of it a name of its own"));
+            return Err(
+                ExprError::new(self.span.clone(), message).help("give a part of it a name of its own")
+            );
         }
         self.depth += 1;
         let term = self.operators(least);
@@ -144,19 +148,22 @@ impl<'p> Parser<'p> {
                 self.condition(&right, "`not`")?;
                 Ok(self.made(Unary::Not, &span, &right))
             }
-            Token::Name("not") => Err(ExprError::new(span, "`not` may not stand here").help("write `(not …)`")),
+            Token::Name("not") => {
+                Err(ExprError::new(span, "`not` may not stand here").help("write `(not …)`"))
+            }
             Token::Name("and" | "or") => Err(self.missing_operand()),
             Token::Name("pi") => {
                 self.advance()?;
                 self.refuse_call("pi", &span)?;
-                Ok(Term { node: self.graph.constant(std::f64::consts::PI), span })
+                Ok(Term { node: self.graph.constant(core::f64::consts::PI), span })
             }
             Token::Name(name) => {
                 self.advance()?;
                 if self.token == Token::Sign("(") {
                     return call(self, name, span);
                 }
-                let node = self.scope.find(name).map_err(|error| ExprError { span: span.clone(), ..error })?;
+                let node =
+                    self.scope.find(name).map_err(|error| ExprError { span: span.clone(), ..error })?;
                 Ok(Term { node, span })
             }
             Token::Sign("(") => {
@@ -170,7 +177,11 @@ impl<'p> Parser<'p> {
                 let right = self.expression(NEGATION)?;
                 self.number(&right, &format!("`{sign}`"))?;
                 let whole = span.start..right.span.end;
-                Ok(if sign == "-" { self.made(Unary::Neg, &span, &right) } else { Term { span: whole, ..right } })
+                Ok(if sign == "-" {
+                    self.made(Unary::Neg, &span, &right)
+                } else {
+                    Term { span: whole, ..right }
+                })
             }
             Token::Sign(_) | Token::End => Err(self.missing_operand()),
         }
@@ -269,7 +280,8 @@ impl<'p> Parser<'p> {
         match self.token {
             Token::End => Ok(()),
             Token::Sign(")") => {
-                Err(ExprError::new(self.span.clone(), "this `)` closes nothing").help("add `(`, or leave it out"))
+                Err(ExprError::new(self.span.clone(), "this `)` closes nothing")
+                    .help("add `(`, or leave it out"))
             }
             _ => Err(self.unexpected("an operator or the end")),
         }
@@ -286,7 +298,9 @@ impl<'p> Parser<'p> {
             },
             Token::Number(_) => error.help("write `*` to multiply"),
             Token::Sign("(") => error.help("write `*` before `(` to multiply"),
-            Token::Sign(",") => error.help("the decimal sign is a point; commas separate the arguments of a function"),
+            Token::Sign(",") => {
+                error.help("the decimal sign is a point; commas separate the arguments of a function")
+            }
             _ => error,
         }
     }
@@ -294,9 +308,10 @@ impl<'p> Parser<'p> {
     fn missing_operand(&self) -> ExprError {
         let found = self.text.get(self.span.clone()).unwrap_or_default();
         match self.token {
-            Token::End => {
-                ExprError::new(self.span.clone(), "the expression ends where a number, a name or `(` should follow")
-            }
+            Token::End => ExprError::new(
+                self.span.clone(),
+                "the expression ends where a number, a name or `(` should follow",
+            ),
             _ => ExprError::new(
                 self.span.clone(),
                 format!("expected a number, a name or `(`, found `{found}`"),

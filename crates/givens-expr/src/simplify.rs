@@ -20,10 +20,10 @@ impl Graph {
         let (left, right) = (self.constant_value(a), self.constant_value(b));
         match (op, left, right) {
             (_, Some(_), Some(_)) => {}
-            (Binary::Add, _, Some(0.0)) | (Binary::Sub, _, Some(0.0)) => return a,
-            (Binary::Add, Some(0.0), _) => return b,
-            (Binary::Mul | Binary::Div, _, Some(1.0)) => return a,
-            (Binary::Mul, Some(1.0), _) => return b,
+            (Binary::Add | Binary::Sub, _, Some(0.0)) | (Binary::Mul | Binary::Div, _, Some(1.0)) => {
+                return a;
+            }
+            (Binary::Add, Some(0.0), _) | (Binary::Mul, Some(1.0), _) => return b,
             (Binary::Mul | Binary::Div, _, Some(-1.0)) => return self.unary(Unary::Neg, a),
             (Binary::Mul, Some(-1.0), _) => return self.unary(Unary::Neg, b),
             (Binary::Mul, None, None) if a == b => return self.power(a, 2),

@@ -33,9 +33,11 @@ impl Program {
             }
         }
         let scalar_code = scalars.instructions(&scalar_steps);
-        let mut places: HashMap<Node, Place> = scalars.places.iter().map(|(&node, &at)| (node, at.lent())).collect();
+        let mut places: HashMap<Node, Place> =
+            scalars.places.iter().map(|(&node, &at)| (node, at.lent())).collect();
 
-        let computed: HashSet<Node> = row_steps.iter().flat_map(|step| step.results.iter().copied()).collect();
+        let computed: HashSet<Node> =
+            row_steps.iter().flat_map(|step| step.results.iter().copied()).collect();
         let mut given = Vec::new();
         for (i, &node) in outputs.iter().enumerate() {
             let row = i as u32;
@@ -51,7 +53,7 @@ impl Program {
             }
         }
 
-        let mut rows = Rows::new(&row_steps, std::iter::empty(), places);
+        let mut rows = Rows::new(&row_steps, core::iter::empty(), places);
         let mut states = Vec::new();
         for &node in order.iter().filter(|node| read.contains(node)) {
             if let Op::Input(Input::State(i)) = graph.op(node) {
@@ -61,7 +63,18 @@ impl Program {
         let code = rows.instructions(&row_steps);
         let (scalars, registers) = (scalars.count as usize, rows.count as usize);
         let outputs = outputs.len();
-        Ok(Program { outputs, extent, constants, loads, scalar_code, scalars, states, code, registers, given })
+        Ok(Program {
+            outputs,
+            extent,
+            constants,
+            loads,
+            scalar_code,
+            scalars,
+            states,
+            code,
+            registers,
+            given,
+        })
     }
 }
 

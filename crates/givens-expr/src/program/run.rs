@@ -1,6 +1,6 @@
 //! The machine that runs a program.
 
-use std::cell::Cell;
+use core::cell::Cell;
 
 use givens_core::scalar::Real;
 
@@ -158,7 +158,9 @@ impl<'m, T: Real> Machine<'m, T> {
             }
             (Source::Same(a), Source::Same(b)) => {
                 let value = f(a, b);
-                result.iter().for_each(|result| result.set(value));
+                for result in result {
+                    result.set(value);
+                }
             }
         }
     }

@@ -4,6 +4,7 @@
 //! their input at once, each error with its place and the remedy ([`InputErrors`]).
 
 mod error;
+pub mod figure;
 mod findings;
 mod model_file;
 mod source;

@@ -7,9 +7,13 @@ mod error;
 pub mod figure;
 mod findings;
 mod model_file;
+mod output;
 mod source;
 mod table;
 
 pub use error::{InputError, InputErrors, Location, Place};
-pub use model_file::{FilterSettings, Model, Prior, Sensor, Setting, SettingValue, Start};
+pub use model_file::{Beginning, FilterSettings, Model, Prior, Sensor, Setting, SettingValue, Start};
+pub use output::{
+    Answer, Destination, DestinationError, Drawn, Format, write_answers, write_measurements, write_states,
+};
 pub use table::{Calendar, Row, Track, Tracks, Truth, parse_tracks, read_times, read_tracks, read_truth};

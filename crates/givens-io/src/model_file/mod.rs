@@ -1,5 +1,6 @@
 //! Model files.
 
+mod beginning;
 mod context;
 mod covariance;
 mod definitions;
@@ -15,6 +16,7 @@ mod start;
 mod state;
 mod vocabulary;
 
+pub use beginning::Beginning;
 pub use filter::{FilterSettings, Setting, SettingValue};
 pub use sensor::Sensor;
 pub use start::Start;

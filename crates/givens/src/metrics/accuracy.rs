@@ -23,6 +23,8 @@ pub struct Accuracy {
     pub nees: f64,
     /// Mean of the degrees of freedom of those: what `nees` should be.
     pub nees_dof: f64,
+    /// Number of rows in these two means.
+    pub nees_rows: usize,
 }
 
 impl Accuracy {
@@ -53,7 +55,34 @@ impl Accuracy {
             rows: sums.iter().map(|&(.., rows)| rows).collect(),
             nees: per(nees_sum, count),
             nees_dof: per(dof_sum as f64, count),
+            nees_rows: count,
         }
+    }
+
+    /// The accuracy over all rows of several runs; `None` without any run.
+    pub fn pooled(runs: impl IntoIterator<Item = Self>) -> Option<Self> {
+        runs.into_iter().reduce(|a, b| {
+            let mean = |a: (f64, usize), b: (f64, usize)| match (a.1, b.1) {
+                (0, _) => b.0,
+                (_, 0) => a.0,
+                (m, n) => (a.0 * m as f64 + b.0 * n as f64) / (m + n) as f64,
+            };
+            let states = 0..a.rmse.len().min(b.rmse.len());
+            let rows = |i: usize| (a.rows[i], b.rows[i]);
+            let square = |i: usize| {
+                let (m, n) = rows(i);
+                mean((a.rmse[i] * a.rmse[i], m), (b.rmse[i] * b.rmse[i], n)).sqrt()
+            };
+            let covered = |i: usize| mean((a.coverage[i], rows(i).0), (b.coverage[i], rows(i).1));
+            Self {
+                rmse: states.clone().map(square).collect(),
+                coverage: states.clone().map(covered).collect(),
+                rows: states.map(|i| a.rows[i] + b.rows[i]).collect(),
+                nees: mean((a.nees, a.nees_rows), (b.nees, b.nees_rows)),
+                nees_dof: mean((a.nees_dof, a.nees_rows), (b.nees_dof, b.nees_rows)),
+                nees_rows: a.nees_rows + b.nees_rows,
+            }
+        })
     }
 }
 

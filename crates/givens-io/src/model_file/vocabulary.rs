@@ -28,7 +28,9 @@ impl Role {
             (Role::Fixed, _) => "only numbers and parameters may, since this is evaluated before any data",
             (_, Input::Time | Input::Control(_)) => return None,
             (Role::Let | Role::Transition, Input::State(_) | Input::Step) => return None,
-            (Role::Measure, Input::State(_)) | (Role::ProcessNoise, Input::Step) | (Role::Start, Input::Measure(_)) => {
+            (Role::Measure, Input::State(_))
+            | (Role::ProcessNoise, Input::Step)
+            | (Role::Start, Input::Measure(_)) => {
                 return None;
             }
             (Role::Measure | Role::MeasurementNoise | Role::Start, Input::Step) => {
@@ -84,9 +86,13 @@ impl Vocabulary {
         for (name, node) in self.measures.iter().filter(|_| role == Role::Start) {
             let taken = matches!(scope.get(name), Some(Meaning::Is(_)));
             let meaning = match node {
-                _ if taken => Meaning::Forbidden("it is both a measure and a parameter or of [let]; rename one".into()),
+                _ if taken => {
+                    Meaning::Forbidden("it is both a measure and a parameter or of [let]; rename one".into())
+                }
                 Some(node) => Meaning::Is(*node),
-                None => Meaning::Forbidden("several sensors have this measure; give it different names".into()),
+                None => {
+                    Meaning::Forbidden("several sensors have this measure; give it different names".into())
+                }
             };
             scope.insert(name.as_str(), meaning);
         }
@@ -128,16 +134,24 @@ pub(super) fn expression_by(
     what: &str,
 ) -> Option<Node> {
     match &value.kind {
-        Kind::Number(number, _) if number.is_finite() => Some(graph.constant(*number)),
-        Kind::Number(..) => {
-            findings.wrong_help(&value.span, format!("{what} is not a finite number"), "write a finite number");
+        Kind::Number(number) if number.is_finite() => Some(graph.constant(*number)),
+        Kind::Number(_) => {
+            findings.wrong_help(
+                &value.span,
+                format!("{what} is not a finite number"),
+                "write a finite number",
+            );
             None
         }
         Kind::Text(text, _) if names(text).any(|(_, name)| is_broken(graph, scope, name)) => None,
         Kind::Text(text, _) => match read(graph, scope, text) {
             Ok(node) => Some(node),
             Err(error) => {
-                findings.wrong_maybe(&value.within(&error.span), format!("{} in {what}", error.message), error.help);
+                findings.wrong_maybe(
+                    &value.within(&error.span),
+                    format!("{} in {what}", error.message),
+                    error.help,
+                );
                 None
             }
         },
@@ -171,6 +185,6 @@ fn controls_in(value: &Value, found: &mut Vec<String>) {
         }
         Kind::List(items) => items.iter().for_each(|item| controls_in(item, found)),
         Kind::Table(entries) => controls(entries, found),
-        Kind::Number(..) | Kind::Truth(_) | Kind::Moment(_) => {}
+        Kind::Number(_) | Kind::Truth(_) | Kind::Moment(_) => {}
     }
 }

@@ -1,4 +1,7 @@
 //! No text whatever makes a reader panic, and what is wrong with it lies within it.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+use core::fmt::Write;
 
 use givens_io::{InputErrors, Model, parse_tracks};
 use proptest::prelude::*;
@@ -81,8 +84,39 @@ fn table_survives(text: &str) {
 
 /// Pieces that may break a reader where they are put in.
 const PIECES: &[&str] = &[
-    "\"", "'", "[", "]", "{", "}", ",", "=", "\n", "\r", ".", "-", "1e999", "nan", "x", "dt", "u_a", "π", "\\", "\u{feff}",
-    "\"\"\"", "((((", "[[", "]]", "# ", "0", "9999999999999999999999", "inf", "time", "^", "rate(x)", "\t", "\u{0}",
+    "\"",
+    "'",
+    "[",
+    "]",
+    "{",
+    "}",
+    ",",
+    "=",
+    "\n",
+    "\r",
+    ".",
+    "-",
+    "1e999",
+    "nan",
+    "x",
+    "dt",
+    "u_a",
+    "π",
+    "\\",
+    "\u{feff}",
+    "\"\"\"",
+    "((((",
+    "[[",
+    "]]",
+    "# ",
+    "0",
+    "9999999999999999999999",
+    "inf",
+    "time",
+    "^",
+    "rate(x)",
+    "\t",
+    "\u{0}",
 ];
 
 /// A text with some stretches replaced by pieces.
@@ -109,8 +143,14 @@ fn mutated(text: &'static str) -> impl Strategy<Value = String> {
 fn relined(text: &'static str) -> impl Strategy<Value = String> {
     (0..text.lines().count(), any::<bool>()).prop_map(move |(which, twice)| {
         let lines = text.lines().enumerate().flat_map(|(i, line)| {
-            let times = if i != which { 1 } else if twice { 2 } else { 0 };
-            std::iter::repeat_n(line, times)
+            let times = if i != which {
+                1
+            } else if twice {
+                2
+            } else {
+                0
+            };
+            core::iter::repeat_n(line, times)
         });
         lines.collect::<Vec<_>>().join("\n")
     })
@@ -177,7 +217,7 @@ fn deep_and_large_inputs_are_refused_without_a_panic() {
     // each definition doubles the one before
     let mut lets = String::from("c0 = \"x\"\n");
     for i in 1..200 {
-        lets.push_str(&format!("c{i} = \"c{}*sin(c{})\"\n", i - 1, i - 1));
+        writeln!(lets, "c{i} = \"c{}*sin(c{})\"", i - 1, i - 1).unwrap();
     }
     model_survives(&MODEL.replace("[let]\n", &format!("[let]\n{lets}")));
     table_survives(&"\"".repeat(100_000));

@@ -1,4 +1,5 @@
 //! Right model files of every form.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use givens_core::model::{At, Observation, Transition};
 use givens_io::{Model, SettingValue};
@@ -61,7 +62,7 @@ fn the_design_page_is_understood() {
     assert_eq!(model.sensors[0].measures, 0..2);
     assert_eq!(model.sensors[1].measures, 2..4);
     assert_eq!(model.sensors[0].columns, ["range", "bearing"]);
-    assert_eq!(model.sensors[0].angles, [None, Some(std::f64::consts::TAU)]);
+    assert_eq!(model.sensors[0].angles, [None, Some(core::f64::consts::TAU)]);
     let (method, place) = model.filter.method.unwrap();
     assert_eq!((method.as_str(), place.place.unwrap().line), ("sr-ckf", 36));
     assert_eq!(model.filter.options[0].value, SettingValue::Number(-2.0));

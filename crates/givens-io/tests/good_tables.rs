@@ -1,4 +1,5 @@
 //! Right tables of every form.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use givens_io::{Model, Tracks, parse_tracks};
 

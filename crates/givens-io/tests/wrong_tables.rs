@@ -1,4 +1,7 @@
 //! Wrong tables: their errors tell line, column and name, and the remedy.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+use core::fmt::Write;
 
 use givens_io::{InputErrors, Model, Tracks, parse_tracks};
 
@@ -39,20 +42,17 @@ type Case = (&'static str, (usize, usize), &'static str, &'static str);
 fn check(model: &Model, cases: &[Case]) {
     let mut failures = String::new();
     for (table, position, message, help) in cases {
-        let told = match parse_tracks(table, "data.csv", model) {
-            Ok(_) => {
-                failures.push_str(&format!("{table:?}: was taken for right\n\n"));
-                continue;
-            }
-            Err(errors) => errors,
+        let Err(told) = parse_tracks(table, "data.csv", model) else {
+            writeln!(failures, "{table:?}: was taken for right\n").unwrap();
+            continue;
         };
         let first = told.first().unwrap();
         let has_help = help.is_empty() || first.help.as_ref().is_some_and(|told| told.contains(help));
         if first.position() != *position || !first.message.contains(message) || !has_help {
-            failures.push_str(&format!("{table:?}: expected {position:?} {message:?} {help:?}\n{told}\n\n"));
+            writeln!(failures, "{table:?}: expected {position:?} {message:?} {help:?}\n{told}\n").unwrap();
         }
         if told.errors.len() != 1 {
-            failures.push_str(&format!("{table:?}: {} errors\n{told}\n\n", told.errors.len()));
+            writeln!(failures, "{table:?}: {} errors\n{told}\n", told.errors.len()).unwrap();
         }
     }
     assert!(failures.is_empty(), "\n{failures}");
@@ -341,7 +341,7 @@ fn a_shared_column_needs_a_sensor() {
 fn many_wrong_cells_are_told_in_part_and_counted() {
     let mut table = "time,u_a,px\n".to_string();
     for k in 0..1000 {
-        table.push_str(&format!("{k},0,x\n"));
+        writeln!(table, "{k},0,x").unwrap();
     }
     let errors = read(&table).unwrap_err();
     assert_eq!((errors.errors.len(), errors.more), (20, 980));

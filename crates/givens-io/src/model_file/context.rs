@@ -23,7 +23,7 @@ pub(super) struct Context<'a> {
     pub step: Option<f64>,
 }
 
-impl<'a> Context<'a> {
+impl Context<'_> {
     pub fn scope(&self, role: Role) -> Scope {
         self.vocabulary.scope(&self.graph, role)
     }
@@ -42,6 +42,9 @@ impl<'a> Context<'a> {
 
     /// The value of a node that is the same at every time.
     pub fn known(&self, node: Node) -> Option<f64> {
+        if let Some(number) = self.graph.constant_value(node) {
+            return Some(number);
+        }
         let fixed = |input: &Input| match input {
             Input::Parameter(_) => true,
             Input::Step => self.step.is_some(),

@@ -1,5 +1,6 @@
 //! Model files.
 
+mod angles;
 mod context;
 mod covariance;
 mod definitions;

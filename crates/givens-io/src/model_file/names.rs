@@ -97,9 +97,10 @@ impl<'a> Names<'a> {
             false
         } else if let Some((other, at)) = self.taken.get(name) {
             let line = self.findings.source.place(at.clone()).line;
-            let message = match *other == used {
-                true => format!("the name `{name}` is given twice (line {line})"),
-                false => format!("`{name}` is {} already (line {line})", other.noun()),
+            let message = if *other == used {
+                format!("the name `{name}` is given twice (line {line})")
+            } else {
+                format!("`{name}` is {} already (line {line})", other.noun())
             };
             self.findings.wrong_help(span, message, "rename one of them");
             false

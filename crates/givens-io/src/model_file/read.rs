@@ -1,5 +1,7 @@
 //! The order in which the sections of a model file are read: names first, then what uses them.
 
+use std::collections::HashSet;
+
 use givens_expr::{Graph, Input};
 
 use super::context::{Context, MANY};
@@ -136,10 +138,15 @@ fn inputs(context: &mut Context, document: &[Entry]) -> Vec<String> {
         for table in tables {
             let Kind::Table(entries) = &table.kind else { continue };
             for entry in entries.iter().filter(|entry| !skipped.contains(&entry.key.as_str())) {
-                controls(core::slice::from_ref(entry), &mut found);
+                controls(&entry.value, &mut found);
             }
         }
     }
+    // The sort is stable, so that controls hidden by escapes keep their order in the string.
+    found.sort_by_key(|(at, _)| *at);
+    let mut seen = HashSet::new();
+    let mut found: Vec<String> =
+        found.into_iter().map(|(_, name)| name).filter(|name| seen.insert(name.clone())).collect();
     if found.len() > MANY {
         context.findings.push(context.findings.source.whole(format!("there are more than {MANY} controls")));
         found.truncate(MANY);

@@ -1,15 +1,15 @@
 //! `[[sensor]]`: what is measured, and how well.
 
-use core::f64::consts::TAU;
 use core::ops::Range;
 
 use givens_expr::{ModelObservation, Node, NoiseBlock, ObservationParts};
 
+use super::angles;
 use super::context::{Context, MANY};
 use super::covariance::covariance;
 use super::document::{Entry, Kind, Value};
 use super::names::Names;
-use super::section::{Named, Section, text, texts};
+use super::section::{Named, Section, text};
 use super::vocabulary::Role;
 use crate::findings::Findings;
 
@@ -145,7 +145,7 @@ pub(super) fn read(
     for sketch in sketches {
         let nodes = expressions(context, sketch);
         let block = block(context, sketch);
-        let periods = periods(context, sketch);
+        let periods = angles::periods(context, &sketch.section, &sketch.columns);
         let next = first + sketch.columns.len();
         if let (Some(nodes), Some(block), Some(periods), Some(name)) =
             (nodes, block, periods, sketch.name.clone())
@@ -213,50 +213,4 @@ fn block(context: &mut Context, sketch: &Sketch) -> Option<NoiseBlock> {
             covariance(context, &scope, &cov.value, &sketch.columns, "`cov`").map(NoiseBlock::Cov)
         }
     }
-}
-
-/// The period of each measure that is an angle.
-fn periods(context: &mut Context, sketch: &Sketch) -> Option<Vec<Option<f64>>> {
-    let mut periods = vec![None; sketch.columns.len()];
-    let Some(entry) = sketch.section.get("angles") else { return Some(periods) };
-    let named = Named { noun: "measure", names: &sketch.columns };
-    let mut good = true;
-    if let Kind::Table(entries) = &entry.value.kind {
-        let scope = context.scope(Role::Fixed);
-        for angle in entries {
-            let what = format!("the period of `{}`", angle.key);
-            let index = named.index(context.findings, &angle.key, &angle.span, "`angles`");
-            let period = context.number(&scope, &angle.value, &what);
-            let positive = period.is_none_or(|period| period > 0.0);
-            if !positive {
-                let message =
-                    format!("{what} is {}, but a period is greater than zero", period.unwrap_or(0.0));
-                context.findings.wrong_help(
-                    &angle.value.span,
-                    message,
-                    "write 360 for degrees, \"2*pi\" for radians",
-                );
-            }
-            match index {
-                Some(index) if period.is_some() && positive => periods[index] = period,
-                _ => good = false,
-            }
-        }
-        return good.then_some(periods);
-    }
-    for (name, span) in texts(context.findings, &entry.value, "`angles`")? {
-        match named.index(context.findings, name, span, "`angles`") {
-            Some(index) if periods[index].is_some() => {
-                context.findings.wrong_help(
-                    span,
-                    format!("`{name}` stands twice in `angles`"),
-                    "remove one of them",
-                );
-                good = false;
-            }
-            Some(index) => periods[index] = Some(TAU),
-            None => good = false,
-        }
-    }
-    good.then_some(periods)
 }

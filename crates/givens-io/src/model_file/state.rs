@@ -57,8 +57,7 @@ pub(super) fn time(context: &mut Context, section: &Section) -> Option<(Option<f
     }
     let text = match &entry.value.kind {
         Kind::Moment(text) => text,
-        // No expression has a colon.
-        Kind::Text(text, _) if text.contains(':') => text,
+        Kind::Text(text, _) if is_date(text) => text,
         _ => {
             let scope = context.scope(Role::Fixed);
             return context.number(&scope, &entry.value, "`time`").map(|time| (Some(time), None));
@@ -72,6 +71,12 @@ pub(super) fn time(context: &mut Context, section: &Section) -> Option<(Option<f
             None
         }
     }
+}
+
+/// Whether a text is meant as a date or time: no expression has a colon, and nobody subtracts as in 2026-03-01.
+fn is_date(text: &str) -> bool {
+    let shape: String = text.chars().take(10).map(|c| if c.is_ascii_digit() { '0' } else { c }).collect();
+    text.contains(':') || shape == "0000-00-00"
 }
 
 /// Reads the initial belief of the states that `start` leaves out; `started` tells for each state whether it does

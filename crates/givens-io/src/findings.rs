@@ -68,11 +68,11 @@ impl<'a> Findings<'a> {
 pub(crate) fn list<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
     const FEW: usize = 12;
     let all: Vec<&str> = names.into_iter().collect();
-    let mut text = all.iter().take(FEW).map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
-    if all.len() > FEW {
-        text.push_str(&format!(" and {} more", all.len() - FEW));
+    let text = all.iter().take(FEW).map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
+    match all.len().saturating_sub(FEW) {
+        0 => text,
+        more => format!("{text} and {more} more"),
     }
-    text
 }
 
 /// `1 state`, `2 states`.

@@ -86,7 +86,7 @@ pub fn simulate<'a, M: Transition, H: Observation>(
             Some(period) => (gap / period, period),
             None => (if gap > 0.0 { 1.0 } else { 0.0 }, gap),
         };
-        if (count - count.round()).abs() > 1e-6 {
+        if (count - count.round()).abs() > 1e-6 + 4.0 * f64::EPSILON * row.time.abs() / dt {
             return Err(fail(Fault::NotWholeSteps { gap, period: dt }));
         }
         let u = held.get_or_insert_with(|| row.u.to_vec());

@@ -47,7 +47,9 @@ impl<X: Method, M: Transition, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
         let (count, dt) = match self.model.period() {
             Some(period) => {
                 let whole = Real::floor(gap / period + 0.5);
-                if Real::abs(gap / period - whole) > 1e-6 {
+                // late times are themselves rounded
+                let rounding = 4.0 * f64::EPSILON * Real::abs(t) / period;
+                if Real::abs(gap / period - whole) > 1e-6 + rounding {
                     return refuse(Fault::NotWholeSteps { gap, period });
                 }
                 (whole as usize, period)

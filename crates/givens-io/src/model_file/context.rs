@@ -23,7 +23,7 @@ pub(super) struct Context<'a> {
     pub step: Option<f64>,
 }
 
-impl<'a> Context<'a> {
+impl Context<'_> {
     pub fn scope(&self, role: Role) -> Scope {
         self.vocabulary.scope(&self.graph, role)
     }
@@ -42,6 +42,9 @@ impl<'a> Context<'a> {
 
     /// The value of a node that is the same at every time.
     pub fn known(&self, node: Node) -> Option<f64> {
+        if let Some(number) = self.graph.constant_value(node) {
+            return Some(number);
+        }
         let fixed = |input: &Input| match input {
             Input::Parameter(_) => true,
             Input::Step => self.step.is_some(),
@@ -68,7 +71,13 @@ impl<'a> Context<'a> {
     }
 
     /// Reads standard deviations, one for each value; those that are known must not be negative.
-    pub fn deviations(&mut self, scope: &Scope, values: &[&Value], names: &[String], what: &str) -> Option<Vec<Node>> {
+    pub fn deviations(
+        &mut self,
+        scope: &Scope,
+        values: &[&Value],
+        names: &[String],
+        what: &str,
+    ) -> Option<Vec<Node>> {
         let mut nodes = Vec::with_capacity(values.len());
         for (value, name) in values.iter().zip(names) {
             let what = format!("{what} of `{name}`");
@@ -76,7 +85,11 @@ impl<'a> Context<'a> {
             let good = match node.and_then(|node| self.known(node)) {
                 Some(number) if number < 0.0 => {
                     let message = format!("{what} is {number}, but a standard deviation is not negative");
-                    self.findings.wrong_help(&value.span, message, "write zero for a quantity that is known exactly");
+                    self.findings.wrong_help(
+                        &value.span,
+                        message,
+                        "write zero for a quantity that is known exactly",
+                    );
                     false
                 }
                 Some(number) => self.finite(number, &value.span, &what),

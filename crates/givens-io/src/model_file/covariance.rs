@@ -56,12 +56,22 @@ fn square<'v>(findings: &Findings, value: &'v Value, n: usize, what: &str) -> Op
             other => other.noun().to_string(),
         };
         good = false;
-        findings.wrong_help(&row.span, format!("row {} of {what} has {found}, but needs {n}", i + 1), help.clone());
+        findings.wrong_help(
+            &row.span,
+            format!("row {} of {what} has {found}, but needs {n}", i + 1),
+            help.clone(),
+        );
     }
     good.then_some(entries)
 }
 
-fn entries(context: &mut Context, scope: &Scope, rows: &[&Value], names: &[String], what: &str) -> Option<Matrix> {
+fn entries(
+    context: &mut Context,
+    scope: &Scope,
+    rows: &[&Value],
+    names: &[String],
+    what: &str,
+) -> Option<Matrix> {
     let n = names.len().max(1);
     let mut nodes = Vec::with_capacity(rows.len());
     for (k, value) in rows.iter().enumerate() {
@@ -106,11 +116,11 @@ impl Check<'_, '_> {
             let controls = vec![u; self.context.controls];
             let dt = self.context.step.unwrap_or(dt);
             let values = self.context.at(&Moment { t, dt, u: &controls }, &self.matrix.nodes);
-            self.symmetric_at(&values)
+            self.symmetric_at(&values, &format!(" at t = {t}, dt = {dt}"))
         })
     }
 
-    fn symmetric_at(&self, values: &[f64]) -> bool {
+    fn symmetric_at(&self, values: &[f64], moment: &str) -> bool {
         let n = self.n();
         let at = |i: usize, j: usize| values.get(i * n + j).copied().unwrap_or(f64::NAN);
         for i in 0..n {
@@ -119,8 +129,14 @@ impl Check<'_, '_> {
                 let scale = below.abs().max(above.abs()).max((at(i, i) * at(j, j)).abs().sqrt());
                 // Where a probe lies outside an expression's domain, nothing is known.
                 if (below - above).abs() > ROUNDING * scale {
+                    let node = |i: usize, j: usize| self.matrix.nodes.get(i * n + j).copied();
+                    let fixed = [node(i, j), node(j, i)]
+                        .into_iter()
+                        .flatten()
+                        .all(|node| self.context.known(node).is_some());
+                    let moment = if fixed { "" } else { moment };
                     let message = format!(
-                        "{} is not symmetric: row {}, column {} (`{}`, `{}`) is {below}, but row {}, column {} is {above}",
+                        "{} is not symmetric: row {}, column {} (`{}`, `{}`) is {below}, but row {}, column {} is {above}{moment}",
                         self.what,
                         i + 1,
                         j + 1,
@@ -129,7 +145,11 @@ impl Check<'_, '_> {
                         j + 1,
                         i + 1
                     );
-                    self.context.findings.wrong_help(&self.span(i, j), message, "write the same value in both");
+                    self.context.findings.wrong_help(
+                        &self.span(i, j),
+                        message,
+                        "write the same value in both",
+                    );
                     return false;
                 }
             }
@@ -139,7 +159,8 @@ impl Check<'_, '_> {
 
     /// A matrix whose entries are all known must be a covariance.
     fn semidefinite(&self) -> bool {
-        let known: Option<Vec<f64>> = self.matrix.nodes.iter().map(|&node| self.context.known(node)).collect();
+        let known: Option<Vec<f64>> =
+            self.matrix.nodes.iter().map(|&node| self.context.known(node)).collect();
         let Some(mut values) = known else { return true };
         let Some(pivot) = cholesky(&mut values, self.n()).failed() else { return true };
         let message = format!(

@@ -23,15 +23,18 @@ pub(super) fn parameters(
     unknown(context.findings, entries, given);
     let mut found = Vec::with_capacity(entries.len());
     for entry in entries {
-        taken.take(&entry.key, Use::Parameter, &entry.span);
+        let is_new = taken.take(&entry.key, Use::Parameter, &entry.span);
         let scope = context.scope(Role::Fixed);
         let what = format!("the parameter `{}`", entry.key);
         let written = context.number(&scope, &entry.value, &what);
-        let value = given.iter().rev().find(|(name, _)| *name == entry.key).map(|(_, value)| *value).or(written);
+        let value =
+            given.iter().rev().find(|(name, _)| *name == entry.key).map(|(_, value)| *value).or(written);
         let index = context.parameters.len();
         context.parameters.push(value.unwrap_or(f64::NAN));
         let node = value.map(|_| context.graph.input(Input::Parameter(index as u32)));
-        context.vocabulary.define(&mut context.graph, &entry.key, node);
+        if is_new {
+            context.vocabulary.define(&mut context.graph, &entry.key, node);
+        }
         found.push((entry.key.clone(), value.unwrap_or(f64::NAN)));
     }
     found
@@ -59,17 +62,17 @@ fn unknown(findings: &Findings, entries: &[Entry], given: &[(&str, f64)]) {
 /// Reads the subexpressions of `[let]`, which may use each other in any order but not in a circle.
 pub(super) fn lets(context: &mut Context, section: Option<Section>, taken: &mut Names) {
     let entries = section.map_or(&[][..], |section| section.entries);
-    for entry in entries {
-        taken.take(&entry.key, Use::Let, &entry.span);
-    }
+    let is_new: Vec<bool> =
+        entries.iter().map(|entry| taken.take(&entry.key, Use::Let, &entry.span)).collect();
     let order = order(entries);
     circle(context.findings, entries, &order);
     let mut scope = context.scope(Role::Let);
     for &index in &order.done {
-        let Some(entry) = entries.get(index) else { continue };
+        let Some((entry, true)) = entries.get(index).zip(is_new.get(index).copied()) else { continue };
         let what = format!("`{}`", entry.key);
         // A definition may be a condition, for `where`.
-        let node = expression_by(parse_any, context.findings, &mut context.graph, &scope, &entry.value, &what);
+        let node =
+            expression_by(parse_any, context.findings, &mut context.graph, &scope, &entry.value, &what);
         context.vocabulary.define(&mut context.graph, &entry.key, node);
         let node = node.unwrap_or_else(|| broken(&mut context.graph));
         scope.insert(entry.key.as_str(), Meaning::Is(node));
@@ -90,7 +93,8 @@ struct Order {
 }
 
 fn order(entries: &[Entry]) -> Order {
-    let index: HashMap<&str, usize> = entries.iter().enumerate().map(|(i, entry)| (entry.key.as_str(), i)).collect();
+    let index: HashMap<&str, usize> =
+        entries.iter().enumerate().map(|(i, entry)| (entry.key.as_str(), i)).collect();
     let uses = |entry: &Entry| -> Vec<usize> {
         let Kind::Text(text, _) = &entry.value.kind else { return Vec::new() };
         let used: BTreeSet<usize> = names(text).filter_map(|(_, name)| index.get(name).copied()).collect();
@@ -136,9 +140,14 @@ fn circle(findings: &Findings, entries: &[Entry], order: &Order) {
         seen.insert(next, path.len());
         path.push(next);
     }
-    let ring: Vec<&str> = path.iter().filter_map(|&i| entries.get(i)).map(|entry| entry.key.as_str()).collect();
+    let ring: Vec<&str> =
+        path.iter().filter_map(|&i| entries.get(i)).map(|entry| entry.key.as_str()).collect();
     if let Some(entry) = path.iter().min().and_then(|&i| entries.get(i)) {
-        let shown = if ring.len() > 12 { format!("{} → …", ring[..12].join(" → ")) } else { ring.join(" → ") };
+        let shown = if ring.len() > 12 {
+            format!("{} → …", ring[..12].join(" → "))
+        } else {
+            ring.join(" → ")
+        };
         let message = format!("[let] defines `{}` by itself: {shown}", entry.key);
         findings.wrong_help(&entry.span, message, "write one of them without the others");
     }

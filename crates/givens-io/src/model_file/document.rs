@@ -27,8 +27,7 @@ pub(super) struct Value {
 pub(super) enum Kind {
     /// A string, and the byte of the source at which it begins if it stands there letter by letter.
     Text(String, Option<usize>),
-    /// A number; whether it was written without a point.
-    Number(f64, bool),
+    Number(f64),
     Truth(bool),
     /// A date or time, as written.
     Moment(String),
@@ -41,7 +40,7 @@ impl Kind {
     pub fn noun(&self) -> &'static str {
         match self {
             Kind::Text(..) => "a string",
-            Kind::Number(..) => "a number",
+            Kind::Number(_) => "a number",
             Kind::Truth(_) => "a truth value",
             Kind::Moment(_) => "a date or time",
             Kind::List(_) => "a list",
@@ -60,28 +59,20 @@ impl Value {
     }
 }
 
-/// Reads a document; what breaks the syntax of TOML is found wrong, and there is no tree then.
+/// Reads a document; the first slip in the syntax of TOML is found wrong, and there is no tree then.
 pub(super) fn read(findings: &Findings) -> Option<Vec<Entry>> {
     let source = findings.source;
     let (table, errors) = DeTable::parse_recoverable(&source.text);
     if errors.is_empty() {
         return Some(entries(table.into_inner(), source));
     }
-    let mut last = None;
-    for error in errors {
-        let span = error.span().unwrap_or(source.text.len()..source.text.len());
-        let line = source.place(span.clone()).line;
-        // One slip makes several errors on its line.
-        if last != Some(line) {
-            let found = source.text.get(span.clone()).filter(|found| !found.trim().is_empty());
-            let found = found.map_or(String::new(), |found| format!(" at `{}`", found.lines().next().unwrap_or("")));
-            findings.wrong_help(
-                &span,
-                format!("not valid TOML{found}: {}", error.message()),
-                "strings stand in quotes, lists in [ ], tables in { } with commas between",
-            );
-        }
-        last = Some(line);
+    // One slip makes many errors after it.
+    let spans = errors.iter().map(|error| error.span().unwrap_or(source.text.len()..source.text.len()));
+    if let Some((span, error)) = spans.zip(&errors).min_by_key(|(span, _)| span.start) {
+        let found = source.text.get(span.clone()).and_then(|found| found.lines().next()).unwrap_or("").trim();
+        let found = if found.is_empty() { String::new() } else { format!(" at `{found}`") };
+        let help = "strings stand in quotes, lists in [ ], tables in { }, with commas between their items";
+        findings.wrong_help(&span, format!("not valid TOML{found}: {}", error.message()), help);
     }
     None
 }
@@ -105,8 +96,8 @@ fn kind(span: Range<usize>, value: DeValue, source: &Source) -> Kind {
             let start = verbatim(&span, &text, source);
             Kind::Text(text.into_owned(), start)
         }
-        DeValue::Integer(integer) => Kind::Number(whole(integer.as_str(), integer.radix()), true),
-        DeValue::Float(float) => Kind::Number(float.as_str().parse().unwrap_or(f64::NAN), false),
+        DeValue::Integer(integer) => Kind::Number(whole(integer.as_str(), integer.radix())),
+        DeValue::Float(float) => Kind::Number(float.as_str().parse().unwrap_or(f64::NAN)),
         DeValue::Boolean(truth) => Kind::Truth(truth),
         DeValue::Datetime(moment) => {
             Kind::Moment(source.text.get(span).map_or_else(|| moment.to_string(), str::to_string))

@@ -56,7 +56,8 @@ pub(super) fn read(context: &mut Context, section: &Section, states: &[String]) 
 /// Continuous models are not there yet; this is told plainly.
 fn continuous(context: &Context, section: &Section) -> bool {
     let Some(entry) = section.get("drift").or_else(|| section.get("diffusion")) else { return false };
-    let message = format!("`{}` makes the model continuous in time, which this version does not read yet", entry.key);
+    let message =
+        format!("`{}` makes the model continuous in time, which this version does not read yet", entry.key);
     let help = "write `transition` and `noise_cov`, in `dt`, for a discrete model";
     context.findings.wrong_help(&entry.span, message, help);
     true

@@ -50,11 +50,14 @@ pub(super) fn read(findings: &Findings, section: Section) -> FilterSettings {
         }
         let value = match &entry.value.kind {
             Kind::Text(text, _) => SettingValue::Text(text.clone()),
-            Kind::Number(number, _) if number.is_finite() => SettingValue::Number(*number),
+            Kind::Number(number) if number.is_finite() => SettingValue::Number(*number),
             Kind::Truth(truth) => SettingValue::Truth(*truth),
             other => {
-                let found = if let Kind::Number(..) = other { "no finite number" } else { other.noun() };
-                let message = format!("`{}` in [filter] is a number, a word or a truth value; found {found}", entry.key);
+                let found = if let Kind::Number(_) = other { "no finite number" } else { other.noun() };
+                let message = format!(
+                    "`{}` in [filter] is a number, a word or a truth value; found {found}",
+                    entry.key
+                );
                 findings.wrong_help(&entry.value.span, message, "options have single values");
                 continue;
             }

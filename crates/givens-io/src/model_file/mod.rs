@@ -1,5 +1,6 @@
 //! Model files.
 
+mod angles;
 mod beginning;
 mod context;
 mod covariance;

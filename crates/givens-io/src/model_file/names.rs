@@ -36,7 +36,8 @@ impl Use {
 fn refused(name: &str, used: Use) -> Option<(String, String)> {
     let noun = used.noun();
     let another = || "choose another name".to_string();
-    let reserved = |as_what: &str| Some((format!("`{name}` is {as_what}, so {noun} cannot have this name"), another()));
+    let reserved =
+        |as_what: &str| Some((format!("`{name}` is {as_what}, so {noun} cannot have this name"), another()));
     if name.trim().is_empty() {
         return Some((format!("{noun} has an empty name"), "give it a name".into()));
     }
@@ -67,7 +68,9 @@ fn refused(name: &str, used: Use) -> Option<(String, String)> {
     if used == Use::Measure {
         // A measure is a column first; only `start` names it in expressions.
         let odd = name.trim() != name || name.chars().any(char::is_control);
-        return odd.then(|| (format!("the measure {name:?} begins or ends with a space, or has a line end"), another()));
+        return odd.then(|| {
+            (format!("the measure {name:?} begins or ends with a space, or has a line end"), another())
+        });
     }
     (!is_name(name)).then(|| {
         let help = "names are made of letters, digits and _, and begin with no digit".to_string();
@@ -86,19 +89,24 @@ impl<'a> Names<'a> {
         Self { findings, taken: HashMap::new() }
     }
 
-    /// Takes a name for states, parameters and `[let]`, which expressions tell apart by name alone.
-    pub fn take(&mut self, name: &str, used: Use, span: &Range<usize>) {
+    /// Takes a name for states, parameters and `[let]`, which expressions tell apart by name alone. Whether it could
+    /// be taken.
+    pub fn take(&mut self, name: &str, used: Use, span: &Range<usize>) -> bool {
         if let Some((message, help)) = refused(name, used) {
             self.findings.wrong_help(span, message, help);
+            false
         } else if let Some((other, at)) = self.taken.get(name) {
             let line = self.findings.source.place(at.clone()).line;
-            let message = match *other == used {
-                true => format!("the name `{name}` is given twice (line {line})"),
-                false => format!("`{name}` is {} already (line {line})", other.noun()),
+            let message = if *other == used {
+                format!("the name `{name}` is given twice (line {line})")
+            } else {
+                format!("`{name}` is {} already (line {line})", other.noun())
             };
             self.findings.wrong_help(span, message, "rename one of them");
+            false
         } else {
             self.taken.insert(name.to_string(), (used, span.clone()));
+            true
         }
     }
 

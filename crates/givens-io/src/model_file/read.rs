@@ -1,5 +1,7 @@
 //! The order in which the sections of a model file are read: names first, then what uses them.
 
+use std::collections::HashSet;
+
 use givens_expr::{Graph, Input};
 
 use super::context::{Context, MANY};
@@ -36,14 +38,19 @@ fn sections(findings: &Findings, document: &[Entry], given: &[(&str, f64)]) -> O
         };
         Section::of(findings, title, entry, keys)
     };
-    let open = |key: &str, title: &'static str| entry(key).and_then(|entry| {
-        let Kind::Table(entries) = &entry.value.kind else { return Section::of(findings, title, entry, &[]) };
-        if entries.len() > MANY {
-            findings.wrong(&entry.span, format!("{title} has {} entries, more than {MANY}", entries.len()));
-            return None;
-        }
-        Some(Section { title, span: &entry.span, entries })
-    });
+    let open = |key: &str, title: &'static str| {
+        entry(key).and_then(|entry| {
+            let Kind::Table(entries) = &entry.value.kind else {
+                return Section::of(findings, title, entry, &[]);
+            };
+            if entries.len() > MANY {
+                findings
+                    .wrong(&entry.span, format!("{title} has {} entries, more than {MANY}", entries.len()));
+                return None;
+            }
+            Some(Section { title, span: &entry.span, entries })
+        })
+    };
     let state_section =
         need("state", "[state]", state::KEYS, "begin it with [state] and `names`, the names of the states");
     let dynamics_section =
@@ -64,7 +71,8 @@ fn sections(findings: &Findings, document: &[Entry], given: &[(&str, f64)]) -> O
         context.vocabulary.define(&mut context.graph, name, Some(node));
     }
     let controls = inputs(&mut context, document);
-    let parameters = definitions::parameters(&mut context, open("parameters", "[parameters]"), given, &mut names);
+    let parameters =
+        definitions::parameters(&mut context, open("parameters", "[parameters]"), given, &mut names);
     // Without its states, all that follows would be found wrong.
     let states = states?;
     definitions::lets(&mut context, open("let", "[let]"), &mut names);
@@ -73,7 +81,11 @@ fn sections(findings: &Findings, document: &[Entry], given: &[(&str, f64)]) -> O
 
     let state_section = state_section?;
     let time = state::time(&mut context, &state_section);
-    let found = if sketches.is_some() { start::read(&mut context, &state_section, &states) } else { start::Found::default() };
+    let found = if sketches.is_some() {
+        start::read(&mut context, &state_section, &states)
+    } else {
+        start::Found::default()
+    };
     let prior = state::prior(&mut context, &state_section, &states, &found.started);
     context.step = dynamics_section.and_then(|section| dynamics::step(&mut context, &section));
     let transition = dynamics_section.and_then(|section| dynamics::read(&mut context, &section, &states));
@@ -85,9 +97,11 @@ fn sections(findings: &Findings, document: &[Entry], given: &[(&str, f64)]) -> O
 
     let (sensors, observation) = observed?;
     let measures = sensors.last().map_or(0, |sensor| sensor.measures.end);
-    let started: Vec<usize> = (0..states.len()).filter(|&i| found.started.get(i).is_some_and(|&is| is)).collect();
+    let started: Vec<usize> =
+        (0..states.len()).filter(|&i| found.started.get(i).is_some_and(|&is| is)).collect();
     let start = start::function(&mut context, &found, &started, measures);
-    let placement = plane.and_then(|[i, j]| start::function(&mut context, &found, &[i.min(j), i.max(j)], measures));
+    let placement =
+        plane.and_then(|[i, j]| start::function(&mut context, &found, &[i.min(j), i.max(j)], measures));
     let (time, epoch) = time?;
     Some(Model {
         file: findings.source.name.clone(),
@@ -124,10 +138,15 @@ fn inputs(context: &mut Context, document: &[Entry]) -> Vec<String> {
         for table in tables {
             let Kind::Table(entries) = &table.kind else { continue };
             for entry in entries.iter().filter(|entry| !skipped.contains(&entry.key.as_str())) {
-                controls(core::slice::from_ref(entry), &mut found);
+                controls(&entry.value, &mut found);
             }
         }
     }
+    // The sort is stable, so that controls hidden by escapes keep their order in the string.
+    found.sort_by_key(|(at, _)| *at);
+    let mut seen = HashSet::new();
+    let mut found: Vec<String> =
+        found.into_iter().map(|(_, name)| name).filter(|name| seen.insert(name.clone())).collect();
     if found.len() > MANY {
         context.findings.push(context.findings.source.whole(format!("there are more than {MANY} controls")));
         found.truncate(MANY);

@@ -21,7 +21,11 @@ impl<'a> Section<'a> {
     pub fn of(findings: &Findings, title: &'static str, entry: &'a Entry, keys: &[&str]) -> Option<Self> {
         let Kind::Table(entries) = &entry.value.kind else {
             let message = format!("{title} is a table; found {}", entry.value.kind.noun());
-            findings.wrong_help(&entry.span, message, format!("write {title} on a line of its own, its keys below"));
+            findings.wrong_help(
+                &entry.span,
+                message,
+                format!("write {title} on a line of its own, its keys below"),
+            );
             return None;
         };
         let section = Self { title, span: &entry.span, entries };
@@ -118,14 +122,18 @@ impl Named<'_> {
         what: &str,
     ) -> Option<Vec<&'a Value>> {
         let mut found: Vec<Option<&Value>> = vec![None; self.names.len()];
+        let mut unknown = 0;
         for entry in entries {
-            if let Some(index) = self.index(findings, &entry.key, &entry.span, what) {
-                found[index] = Some(&entry.value);
+            match self.index(findings, &entry.key, &entry.span, what) {
+                Some(index) => found[index] = Some(&entry.value),
+                None => unknown += 1,
             }
         }
-        let missing = || self.names.iter().zip(&found).filter(|(_, value)| value.is_none()).map(|(name, _)| name);
+        let missing =
+            || self.names.iter().zip(&found).filter(|(_, value)| value.is_none()).map(|(name, _)| name);
         let number = missing().count();
-        if number > 0 {
+        // An unknown name is likely a missing one, misspelt.
+        if number > unknown {
             let plural = if number == 1 { "" } else { "s" };
             let names = list(missing().map(String::as_str));
             findings.wrong(span, format!("{what} leaves out the {}{plural} {names}", self.noun));
@@ -150,7 +158,11 @@ pub(super) fn text<'a>(findings: &Findings, value: &'a Value, what: &str) -> Opt
 }
 
 /// The items of a list of texts, each with its span.
-pub(super) fn texts<'a>(findings: &Findings, value: &'a Value, what: &str) -> Option<Vec<(&'a str, &'a Range<usize>)>> {
+pub(super) fn texts<'a>(
+    findings: &Findings,
+    value: &'a Value,
+    what: &str,
+) -> Option<Vec<(&'a str, &'a Range<usize>)>> {
     let Kind::List(items) = &value.kind else {
         let message = format!("{what} is a list of names; found {}", value.kind.noun());
         findings.wrong_help(&value.span, message, "write [\"…\", \"…\"]");

@@ -1,15 +1,15 @@
 //! `[[sensor]]`: what is measured, and how well.
 
-use core::f64::consts::TAU;
 use core::ops::Range;
 
 use givens_expr::{ModelObservation, Node, NoiseBlock, ObservationParts};
 
+use super::angles;
 use super::context::{Context, MANY};
 use super::covariance::covariance;
 use super::document::{Entry, Kind, Value};
 use super::names::Names;
-use super::section::{Named, Section, text, texts};
+use super::section::{Named, Section, text};
 use super::vocabulary::Role;
 use crate::findings::Findings;
 
@@ -37,14 +37,22 @@ pub(super) struct Sketch<'a> {
 }
 
 /// Reads names of sensors and measures.
-pub(super) fn sketches<'a>(findings: &Findings, entry: Option<&'a Entry>, names: &Names) -> Option<Vec<Sketch<'a>>> {
+pub(super) fn sketches<'a>(
+    findings: &Findings,
+    entry: Option<&'a Entry>,
+    names: &Names,
+) -> Option<Vec<Sketch<'a>>> {
     let Some(entry) = entry else {
         let help = "begin one with [[sensor]] and give it `name`, `measures` and `std`";
         findings.push(findings.source.whole("the model has no sensor").with_help(help));
         return None;
     };
     let Kind::List(items) = &entry.value.kind else {
-        findings.wrong_help(&entry.span, "sensors are a list of tables", "write [[sensor]], in double brackets");
+        findings.wrong_help(
+            &entry.span,
+            "sensors are a list of tables",
+            "write [[sensor]], in double brackets",
+        );
         return None;
     };
     if items.is_empty() {
@@ -61,7 +69,11 @@ pub(super) fn sketches<'a>(findings: &Findings, entry: Option<&'a Entry>, names:
         if let Some((name, at)) = sketch.name.as_ref().zip(sketch.section.get("name"))
             && sketches.iter().any(|other| other.name.as_ref() == Some(name))
         {
-            findings.wrong_help(&at.value.span, format!("two sensors are called `{name}`"), "rename one of them");
+            findings.wrong_help(
+                &at.value.span,
+                format!("two sensors are called `{name}`"),
+                "rename one of them",
+            );
         }
         sketches.push(sketch);
     }
@@ -92,7 +104,8 @@ fn sketch<'a>(findings: &Findings, item: &'a Value, names: &Names) -> Option<Ske
     let help = "write what it measures: measures = { range = \"hypot(x, y)\" }";
     let entry = section.need(findings, "measures", help)?;
     let Kind::Table(measures) = &entry.value.kind else {
-        let message = format!("`measures` is a table of names and expressions; found {}", entry.value.kind.noun());
+        let message =
+            format!("`measures` is a table of names and expressions; found {}", entry.value.kind.noun());
         findings.wrong_help(&entry.value.span, message, help);
         return None;
     };
@@ -104,7 +117,12 @@ fn sketch<'a>(findings: &Findings, item: &'a Value, names: &Names) -> Option<Ske
         names.measure(&measure.key, &measure.span);
     }
     let columns = measures.iter().map(|measure| measure.key.clone()).collect();
-    Some(Sketch { section, name, columns, expressions: measures.iter().map(|measure| &measure.value).collect() })
+    Some(Sketch {
+        section,
+        name,
+        columns,
+        expressions: measures.iter().map(|measure| &measure.value).collect(),
+    })
 }
 
 /// Tells the vocabulary the measures, for `start`.
@@ -116,20 +134,31 @@ pub(super) fn define(context: &mut Context, sketches: &[Sketch]) {
 }
 
 /// Reads the expressions of all sensors, stacked in file order.
-pub(super) fn read(context: &mut Context, sketches: &[Sketch], states: usize) -> Option<(Vec<Sensor>, ModelObservation)> {
+pub(super) fn read(
+    context: &mut Context,
+    sketches: &[Sketch],
+    states: usize,
+) -> Option<(Vec<Sensor>, ModelObservation)> {
     let (mut sensors, mut measures, mut angles, mut noise) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     let mut good = true;
     let mut first = 0;
     for sketch in sketches {
         let nodes = expressions(context, sketch);
         let block = block(context, sketch);
-        let periods = periods(context, sketch);
+        let periods = angles::periods(context, &sketch.section, &sketch.columns);
         let next = first + sketch.columns.len();
-        if let (Some(nodes), Some(block), Some(periods), Some(name)) = (nodes, block, periods, sketch.name.clone()) {
+        if let (Some(nodes), Some(block), Some(periods), Some(name)) =
+            (nodes, block, periods, sketch.name.clone())
+        {
             measures.extend(nodes);
             angles.extend(periods.iter().copied());
             noise.push(block);
-            sensors.push(Sensor { name, measures: first..next, columns: sketch.columns.clone(), angles: periods });
+            sensors.push(Sensor {
+                name,
+                measures: first..next,
+                columns: sketch.columns.clone(),
+                angles: periods,
+            });
         } else {
             good = false;
         }
@@ -163,7 +192,11 @@ fn block(context: &mut Context, sketch: &Sketch) -> Option<NoiseBlock> {
     let scope = context.scope(Role::MeasurementNoise);
     match (sketch.section.get("std"), sketch.section.get("cov")) {
         (Some(_), Some(cov)) => {
-            context.findings.wrong_help(&cov.span, "the sensor has both `std` and `cov`", "remove one of them");
+            context.findings.wrong_help(
+                &cov.span,
+                "the sensor has both `std` and `cov`",
+                "remove one of them",
+            );
             None
         }
         (None, None) => {
@@ -180,41 +213,4 @@ fn block(context: &mut Context, sketch: &Sketch) -> Option<NoiseBlock> {
             covariance(context, &scope, &cov.value, &sketch.columns, "`cov`").map(NoiseBlock::Cov)
         }
     }
-}
-
-/// The period of each measure that is an angle.
-fn periods(context: &mut Context, sketch: &Sketch) -> Option<Vec<Option<f64>>> {
-    let mut periods = vec![None; sketch.columns.len()];
-    let Some(entry) = sketch.section.get("angles") else { return Some(periods) };
-    let named = Named { noun: "measure", names: &sketch.columns };
-    let mut good = true;
-    if let Kind::Table(entries) = &entry.value.kind {
-        let scope = context.scope(Role::Fixed);
-        for angle in entries {
-            let what = format!("the period of `{}`", angle.key);
-            let index = named.index(context.findings, &angle.key, &angle.span, "`angles`");
-            let period = context.number(&scope, &angle.value, &what);
-            let positive = period.is_none_or(|period| period > 0.0);
-            if !positive {
-                let message = format!("{what} is {}, but a period is greater than zero", period.unwrap_or(0.0));
-                context.findings.wrong_help(&angle.value.span, message, "write 360 for degrees, \"2*pi\" for radians");
-            }
-            match index {
-                Some(index) if period.is_some() && positive => periods[index] = period,
-                _ => good = false,
-            }
-        }
-        return good.then_some(periods);
-    }
-    for (name, span) in texts(context.findings, &entry.value, "`angles`")? {
-        match named.index(context.findings, name, span, "`angles`") {
-            Some(index) if periods[index].is_some() => {
-                context.findings.wrong_help(span, format!("`{name}` stands twice in `angles`"), "remove one of them");
-                good = false;
-            }
-            Some(index) => periods[index] = Some(TAU),
-            None => good = false,
-        }
-    }
-    good.then_some(periods)
 }

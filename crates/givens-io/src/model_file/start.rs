@@ -41,7 +41,12 @@ pub(super) fn read(context: &mut Context, section: &Section, states: &[String]) 
             let index = |name: &str, span| named.index(context.findings, name, span, "`start`");
             entries.iter().filter_map(|entry| Some((index(&entry.key, &entry.span)?, &entry.value))).collect()
         }
-        _ => named.values(context.findings, &entry.value, "`start`").unwrap_or_default().into_iter().enumerate().collect(),
+        _ => named
+            .values(context.findings, &entry.value, "`start`")
+            .unwrap_or_default()
+            .into_iter()
+            .enumerate()
+            .collect(),
     };
     let scope = context.scope(Role::Start);
     for (state, value) in values {
@@ -51,7 +56,8 @@ pub(super) fn read(context: &mut Context, section: &Section, states: &[String]) 
             continue;
         }
         let node = context.expression(&scope, value, &format!("the start of `{name}`"));
-        let measured = |node: &Node| context.graph.inputs_of(*node).iter().any(|i| matches!(i, Input::Measure(_)));
+        let measured =
+            |node: &Node| context.graph.inputs_of(*node).iter().any(|i| matches!(i, Input::Measure(_)));
         if node.is_some_and(|node| !measured(&node)) {
             let message = format!("the start of `{name}` names no measure, so it would be known exactly");
             context.findings.wrong_help(&value.span, message, "give it `mean` and `std` instead");
@@ -72,7 +78,12 @@ fn rate(context: &Context, value: &Value) -> bool {
 }
 
 /// The function that finds `states`, if `start` has them all.
-pub(super) fn function(context: &mut Context, found: &Found, states: &[usize], measures: usize) -> Option<Start> {
+pub(super) fn function(
+    context: &mut Context,
+    found: &Found,
+    states: &[usize],
+    measures: usize,
+) -> Option<Start> {
     let values: Option<Vec<Node>> = states.iter().map(|&i| found.nodes.get(i).copied().flatten()).collect();
     let values = values.filter(|values| !values.is_empty())?;
     let inputs = values.iter().flat_map(|&node| context.graph.inputs_of(node));

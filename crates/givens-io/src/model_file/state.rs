@@ -33,15 +33,18 @@ pub(super) fn names(findings: &Findings, section: &Section, taken: &mut Names) -
         findings.wrong(&entry.value.span, format!("there are {} states, more than {MANY}", names.len()));
         return None;
     }
+    let mut good = true;
     for (name, span) in &names {
-        taken.take(name, Use::State, span);
+        good &= taken.take(name, Use::State, span);
     }
-    let deviation = |name: &str| name.strip_suffix("_std").is_some_and(|of| names.iter().any(|(other, _)| *other == of));
+    let deviation =
+        |name: &str| name.strip_suffix("_std").is_some_and(|of| names.iter().any(|(other, _)| *other == of));
     for (name, span) in names.iter().filter(|(name, _)| deviation(name)) {
         let message = format!("`{name}` is the column of a standard deviation in every output");
         findings.wrong_help(span, message, "choose another name");
+        good = false;
     }
-    Some(names.into_iter().map(|(name, _)| name.to_string()).collect())
+    good.then(|| names.into_iter().map(|(name, _)| name.to_string()).collect())
 }
 
 /// Reads the time at which the initial belief holds: a number, or an instant of which `t` is zero.
@@ -54,7 +57,7 @@ pub(super) fn time(context: &mut Context, section: &Section) -> Option<(Option<f
     }
     let text = match &entry.value.kind {
         Kind::Moment(text) => text,
-        Kind::Text(text, _) if Calendar::parse(text).is_ok() => text,
+        Kind::Text(text, _) if is_date(text) => text,
         _ => {
             let scope = context.scope(Role::Fixed);
             return context.number(&scope, &entry.value, "`time`").map(|time| (Some(time), None));
@@ -70,12 +73,24 @@ pub(super) fn time(context: &mut Context, section: &Section) -> Option<(Option<f
     }
 }
 
+/// Whether a text is meant as a date or time: no expression has a colon, and nobody subtracts as in 2026-03-01.
+fn is_date(text: &str) -> bool {
+    let shape: String = text.chars().take(10).map(|c| if c.is_ascii_digit() { '0' } else { c }).collect();
+    text.contains(':') || shape == "0000-00-00"
+}
+
 /// Reads the initial belief of the states that `start` leaves out; `started` tells for each state whether it does
 /// not.
-pub(super) fn prior(context: &mut Context, section: &Section, states: &[String], started: &[bool]) -> Option<Prior> {
+pub(super) fn prior(
+    context: &mut Context,
+    section: &Section,
+    states: &[String],
+    started: &[bool],
+) -> Option<Prior> {
     let findings = context.findings;
     let left = (0..states.len()).filter(|&i| !started.get(i).is_some_and(|&s| s));
-    let (which, names): (Vec<usize>, Vec<String>) = left.filter_map(|i| Some((i, states.get(i)?.clone()))).unzip();
+    let (which, names): (Vec<usize>, Vec<String>) =
+        left.filter_map(|i| Some((i, states.get(i)?.clone()))).unzip();
     let (mean, std, cov) = (section.get("mean"), section.get("std"), section.get("cov"));
     let overlap = [mean, std].into_iter().flatten().any(|entry| twice(findings, entry, states, started));
     if overlap || complete(findings, section, &names).is_none() {

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use givens_expr::{ExprError, Graph, Input, Meaning, Node, Scope, names, parse};
 
-use super::document::{Entry, Kind, Value};
+use super::document::{Kind, Value};
 use crate::findings::Findings;
 
 /// Where an expression stands; this decides what it may depend on.
@@ -23,22 +23,24 @@ pub(super) enum Role {
 impl Role {
     /// Why a quantity may not stand here, and the remedy; none if it may.
     fn forbids(self, input: Input) -> Option<&'static str> {
+        let may = match input {
+            Input::Parameter(_) => true,
+            Input::Time | Input::Control(_) => self != Role::Fixed,
+            Input::State(_) => matches!(self, Role::Let | Role::Transition | Role::Measure),
+            Input::Step => matches!(self, Role::Let | Role::Transition | Role::ProcessNoise),
+            Input::Measure(_) => self == Role::Start,
+        };
+        if may {
+            return None;
+        }
         Some(match (self, input) {
-            (_, Input::Parameter(_)) => return None,
             (Role::Fixed, _) => "only numbers and parameters may, since this is evaluated before any data",
-            (_, Input::Time | Input::Control(_)) => return None,
-            (Role::Let | Role::Transition, Input::State(_) | Input::Step) => return None,
-            (Role::Measure, Input::State(_)) | (Role::ProcessNoise, Input::Step) | (Role::Start, Input::Measure(_)) => {
-                return None;
-            }
-            (Role::Measure | Role::MeasurementNoise | Role::Start, Input::Step) => {
-                "a measurement has no step; only transition and noise_cov depend on `dt`"
-            }
-            (Role::ProcessNoise | Role::MeasurementNoise, Input::State(_)) => {
+            (_, Input::Step) => "a measurement has no step; only transition and noise_cov depend on `dt`",
+            (Role::Start, _) => "`start` finds the states from measures; use their names",
+            (_, Input::State(_)) => {
                 "a noise covariance may not depend on the state; use parameters, `t` and controls"
             }
-            (Role::Start, Input::State(_)) => "`start` finds the states from measures; use their names",
-            (_, Input::Measure(_)) => "measures may be named in `start` only",
+            _ => "measures may be named in `start` only",
         })
     }
 }
@@ -84,9 +86,13 @@ impl Vocabulary {
         for (name, node) in self.measures.iter().filter(|_| role == Role::Start) {
             let taken = matches!(scope.get(name), Some(Meaning::Is(_)));
             let meaning = match node {
-                _ if taken => Meaning::Forbidden("it is both a measure and a parameter or of [let]; rename one".into()),
+                _ if taken => {
+                    Meaning::Forbidden("it is both a measure and a parameter or of [let]; rename one".into())
+                }
                 Some(node) => Meaning::Is(*node),
-                None => Meaning::Forbidden("several sensors have this measure; give it different names".into()),
+                None => {
+                    Meaning::Forbidden("several sensors have this measure; give it different names".into())
+                }
             };
             scope.insert(name.as_str(), meaning);
         }
@@ -128,16 +134,24 @@ pub(super) fn expression_by(
     what: &str,
 ) -> Option<Node> {
     match &value.kind {
-        Kind::Number(number, _) if number.is_finite() => Some(graph.constant(*number)),
-        Kind::Number(..) => {
-            findings.wrong_help(&value.span, format!("{what} is not a finite number"), "write a finite number");
+        Kind::Number(number) if number.is_finite() => Some(graph.constant(*number)),
+        Kind::Number(_) => {
+            findings.wrong_help(
+                &value.span,
+                format!("{what} is not a finite number"),
+                "write a finite number",
+            );
             None
         }
         Kind::Text(text, _) if names(text).any(|(_, name)| is_broken(graph, scope, name)) => None,
         Kind::Text(text, _) => match read(graph, scope, text) {
             Ok(node) => Some(node),
             Err(error) => {
-                findings.wrong_maybe(&value.within(&error.span), format!("{} in {what}", error.message), error.help);
+                findings.wrong_maybe(
+                    &value.within(&error.span),
+                    format!("{} in {what}", error.message),
+                    error.help,
+                );
                 None
             }
         },
@@ -153,24 +167,15 @@ fn is_broken(graph: &Graph, scope: &Scope, name: &str) -> bool {
     matches!(scope.get(name), Some(Meaning::Is(node)) if graph.inputs_of(*node).contains(&BROKEN))
 }
 
-/// The controls that expressions below an entry use, in order of first use.
-pub(super) fn controls(entries: &[Entry], found: &mut Vec<String>) {
-    for entry in entries {
-        controls_in(&entry.value, found);
-    }
-}
-
-fn controls_in(value: &Value, found: &mut Vec<String>) {
+/// The controls that expressions in a value use, each with the byte where it stands.
+pub(super) fn controls(value: &Value, found: &mut Vec<(usize, String)>) {
     match &value.kind {
         Kind::Text(text, _) => {
-            for (_, name) in names(text) {
-                if name.starts_with("u_") && !found.iter().any(|other| other == name) {
-                    found.push(name.to_string());
-                }
-            }
+            let used = names(text).filter(|(_, name)| name.starts_with("u_"));
+            found.extend(used.map(|(at, name)| (value.within(&at).start, name.to_string())));
         }
-        Kind::List(items) => items.iter().for_each(|item| controls_in(item, found)),
-        Kind::Table(entries) => controls(entries, found),
-        Kind::Number(..) | Kind::Truth(_) | Kind::Moment(_) => {}
+        Kind::List(items) => items.iter().for_each(|item| controls(item, found)),
+        Kind::Table(entries) => entries.iter().for_each(|entry| controls(&entry.value, found)),
+        Kind::Number(_) | Kind::Truth(_) | Kind::Moment(_) => {}
     }
 }

@@ -86,7 +86,10 @@ impl Check<'_> {
     fn begin(&self) {
         let Some(row) = self.rows.first() else { return };
         if row.time < self.start {
-            let message = format!("the row at {} lies before the initial belief, which holds at {}", row.time_text, self.start);
+            let message = format!(
+                "the row at {} lies before the initial belief, which holds at {}",
+                row.time_text, self.start
+            );
             let message = if self.model.epoch.is_some() || row.time_text.parse::<f64>().is_ok() {
                 message
             } else {

@@ -40,9 +40,11 @@ pub(super) fn columns(sheet: &Sheet, model: &Model, measured: bool) -> Option<Co
         let read = Some(column) == time || Some(column) == sensor || Some(column) == track;
         !(read || controls.contains(&column) || names_measure(name))
     });
-    let ignored = ignored.map(|(column, name)| {
-        if name.is_empty() { format!("column {}", column + 1) } else { name.clone() }
-    });
+    let ignored = ignored.map(
+        |(column, name)| {
+            if name.is_empty() { format!("column {}", column + 1) } else { name.clone() }
+        },
+    );
     let ignored = ignored.collect();
     let found = complete && !ambiguous && controls.len() == model.controls.len();
     time.filter(|_| found).map(|time| Columns { time, track, sensor, controls, measures, shared, ignored })
@@ -101,7 +103,8 @@ fn measures(sheet: &Sheet, model: &Model) -> (Vec<Option<usize>>, bool) {
         any = true;
         for (name, _) in sensor.columns.iter().zip(&columns).filter(|(_, column)| column.is_none()) {
             complete = false;
-            let message = format!("the table has no column `{name}`, a measure of the sensor `{}`", sensor.name);
+            let message =
+                format!("the table has no column `{name}`, a measure of the sensor `{}`", sensor.name);
             let help = format!("{}; a sensor may be absent as a whole, not in part", near(sheet, name));
             sheet.findings.wrong_help(&sheet.header_span(), message, help);
         }
@@ -110,7 +113,11 @@ fn measures(sheet: &Sheet, model: &Model) -> (Vec<Option<usize>>, bool) {
     if !any {
         complete = false;
         let names = || model.sensors.iter().flat_map(|sensor| sensor.columns.iter().map(String::as_str));
-        let message = format!("the table has none of the model's {}: {}", count(names().count(), "measure"), list(names()));
+        let message = format!(
+            "the table has none of the model's {}: {}",
+            count(names().count(), "measure"),
+            list(names())
+        );
         let near = names().find_map(|name| {
             let other = suggest(name, sheet.header.iter().map(String::as_str))?;
             Some(format!("rename `{other}` to `{name}`"))
@@ -132,7 +139,12 @@ fn ambiguous(sheet: &Sheet, model: &Model, measures: &[Option<usize>], shared: &
     let column = column.unwrap_or(0);
     let name = sheet.header.get(column).map_or("", String::as_str);
     let owners = model.sensors.iter().filter(|sensor| sensor.columns.iter().any(|other| other == name));
-    let message = format!("the column `{name}` belongs to the sensors {}", list(owners.map(|s| s.name.as_str())));
-    sheet.findings.wrong_help(&sheet.name_span(column), message, "add a column `sensor` that names the one of each row");
+    let message =
+        format!("the column `{name}` belongs to the sensors {}", list(owners.map(|s| s.name.as_str())));
+    sheet.findings.wrong_help(
+        &sheet.name_span(column),
+        message,
+        "add a column `sensor` that names the one of each row",
+    );
     true
 }

@@ -8,7 +8,7 @@ use super::cell::{Cell, number, short};
 use super::header::{self, Columns};
 use super::sheet::{Fields, Sheet};
 use super::time::{Time, time};
-use super::{Row, Track, Tracks, check};
+use super::{Row, Tracks, check};
 use crate::findings::{Findings, list};
 use crate::model_file::Model;
 
@@ -114,8 +114,15 @@ fn row(
 struct Found;
 
 /// The sensor that a row names, if it names one; a name that cannot stand is found wrong.
-fn sensor(findings: &Findings, fields: &Fields, columns: &Columns, model: &Model) -> Result<Option<usize>, Found> {
-    let Some((column, name)) = columns.sensor.map(|column| (column, fields.text(column))) else { return Ok(None) };
+fn sensor(
+    findings: &Findings,
+    fields: &Fields,
+    columns: &Columns,
+    model: &Model,
+) -> Result<Option<usize>, Found> {
+    let Some((column, name)) = columns.sensor.map(|column| (column, fields.text(column))) else {
+        return Ok(None);
+    };
     if name.is_empty() {
         return Ok(None);
     }
@@ -150,7 +157,8 @@ fn measures(
             if !other && !fields.text(column).is_empty() && !told.contains(&column) {
                 told.push(column);
                 let name = own.map_or("", |own| own.name.as_str());
-                let message = format!("{} is no measure of the sensor `{name}` of this row", fields.column(column));
+                let message =
+                    format!("{} is no measure of the sensor `{name}` of this row", fields.column(column));
                 findings.wrong_help(&fields.span(column), message, "give each sensor a row of its own");
             }
             continue;
@@ -158,7 +166,8 @@ fn measures(
         if shared && own.is_none() {
             if !fields.text(column).is_empty() && !told.contains(&column) {
                 told.push(column);
-                let message = format!("{} belongs to several sensors, and the row names none", fields.column(column));
+                let message =
+                    format!("{} belongs to several sensors, and the row names none", fields.column(column));
                 findings.wrong_help(&fields.span(column), message, "fill in its `sensor`");
             }
             continue;
@@ -168,7 +177,8 @@ fn measures(
         }
     }
     if let (Some(own), Some(column)) = (own, columns.sensor) {
-        let absent = own.measures.clone().all(|index| columns.measures.get(index).is_none_or(Option::is_none));
+        let absent =
+            own.measures.clone().all(|index| columns.measures.get(index).is_none_or(Option::is_none));
         if absent && columns.measures.iter().any(Option::is_some) {
             let message = format!("the table has no columns of the sensor `{}`", own.name);
             let help = format!("its measures are {}", list(own.columns.iter().map(String::as_str)));

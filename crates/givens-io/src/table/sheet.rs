@@ -63,7 +63,8 @@ impl<'a> Sheet<'a> {
         let mut seen = std::collections::HashMap::new();
         for (column, name) in self.header.iter().enumerate().filter(|(_, name)| !name.is_empty()) {
             if let Some(first) = seen.insert(name.as_str(), column) {
-                let message = format!("the column `{name}` stands twice: columns {} and {}", first + 1, column + 1);
+                let message =
+                    format!("the column `{name}` stands twice: columns {} and {}", first + 1, column + 1);
                 self.findings.wrong_help(&self.name_span(column), message, "rename or remove one of them");
             }
         }

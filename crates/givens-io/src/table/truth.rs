@@ -52,7 +52,8 @@ fn truth(findings: &Findings, model: &Model, tracks: &Tracks) -> Option<Truth> {
     unlike(&sheet, ids, tracks);
     let time_column = time_column.filter(|_| findings.none())?;
     let known = |column| column == time_column || Some(column) == ids || columns.contains(&Some(column));
-    let ignored = sheet.header.iter().enumerate().filter(|(column, _)| !known(*column)).map(|(_, name)| name.clone());
+    let ignored =
+        sheet.header.iter().enumerate().filter(|(column, _)| !known(*column)).map(|(_, name)| name.clone());
     let mut truth = Truth {
         times: Vec::new(),
         tracks: Vec::new(),
@@ -69,7 +70,11 @@ fn truth(findings: &Findings, model: &Model, tracks: &Tracks) -> Option<Truth> {
             if let Some((before, line)) = latest.filter(|(before, _)| *before >= time) {
                 let how = if before > time { "stands after a later one" } else { "is there twice" };
                 let message = format!("the time {} {how} (line {line})", fields.text(time_column));
-                findings.wrong_help(&fields.span(time_column), message, "sort the rows of each track by time");
+                findings.wrong_help(
+                    &fields.span(time_column),
+                    message,
+                    "sort the rows of each track by time",
+                );
             }
             *latest = Some((time, fields.line()));
         }
@@ -87,7 +92,12 @@ fn truth(findings: &Findings, model: &Model, tracks: &Tracks) -> Option<Truth> {
         }
     }
     if truth.times.is_empty() && findings.none() {
-        findings.push(findings.source.whole("the table has a header but no rows").with_help("each row is one true state"));
+        findings.push(
+            findings
+                .source
+                .whole("the table has a header but no rows")
+                .with_help("each row is one true state"),
+        );
     }
     Some(truth)
 }
@@ -101,7 +111,11 @@ fn unlike(sheet: &Sheet, ids: Option<usize>, tracks: &Tracks) {
         }
         None if tracks.tracks.len() > 1 => {
             let message = "the table has no column `track_id`, but the data have several tracks";
-            sheet.findings.wrong_help(&sheet.header_span(), message, "name the track of each row as the data do");
+            sheet.findings.wrong_help(
+                &sheet.header_span(),
+                message,
+                "name the track of each row as the data do",
+            );
         }
         _ => {}
     }

@@ -2,7 +2,7 @@
 
 use super::back::{Passage, back_scratch, step_back};
 use crate::filter::memory::take;
-use crate::filter::{Belief, Filter, Form, Grow, Method, StepError};
+use crate::filter::{Belief, Filter, Form, Grow, Method, Prior, StepError};
 use crate::model::Transition;
 use crate::scalar::Real;
 use core::marker::PhantomData;
@@ -104,21 +104,62 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
         &mut self,
         filter: &Filter<'_, X, M, T, C>,
         steps: usize,
-        mut visit: impl FnMut(usize, &Belief<T>),
+        visit: impl FnMut(usize, &Belief<T>),
     ) -> Result<(), StepError> {
-        let n = self.states;
-        let (len, capacity, newest) = (Self::record_len(n, self.square_root), self.capacity, self.oldest + self.count);
-        let square = if self.square_root { 0 } else { n * n };
-        let (records, mut rest) = self.memory.as_mut().split_at_mut(capacity * len);
-        let mut belief =
-            Belief { mean: take(&mut rest, n), factor: take(&mut rest, n * n), cov: take(&mut rest, square) };
+        let square = if self.square_root { 0 } else { self.states * self.states };
+        let (belief, ..) = self.carve(square);
         belief.mean.copy_from_slice(filter.mean());
         belief.factor.copy_from_slice(filter.factor());
         if square > 0 {
             filter.write_cov(belief.cov);
         }
+        self.go_back::<X::Form>(filter.time(), 0, steps, visit)
+    }
+
+    /// The same from any belief at the time of the latest record but `skip`.
+    ///
+    /// # Errors
+    /// As [`smooth`](Self::smooth).
+    pub fn smooth_from<F: Form>(
+        &mut self,
+        start: Prior,
+        skip: usize,
+        steps: usize,
+        visit: impl FnMut(usize, &Belief<T>),
+    ) -> Result<(), StepError> {
+        let square = if F::SQUARE_ROOT { 0 } else { self.states * self.states };
+        let (belief, ..) = self.carve(square);
+        let put = |to: &mut [T], from: &[f64]| to.iter_mut().zip(from).for_each(|(to, &x)| *to = T::of(x));
+        put(belief.mean, start.mean);
+        put(belief.factor, start.factor);
+        put(belief.cov, start.cov);
+        self.go_back::<F>(start.time, skip, steps, visit)
+    }
+
+    /// The belief on its way back, the records, and scratch.
+    fn carve(&mut self, square: usize) -> (Belief<'_, T>, &[T], &mut [T]) {
+        let (n, len) = (self.states, Self::record_len(self.states, self.square_root));
+        let (records, mut rest) = self.memory.as_mut().split_at_mut(self.capacity * len);
+        let rest_of = &mut rest;
+        let belief =
+            Belief { mean: take(rest_of, n), factor: take(rest_of, n * n), cov: take(rest_of, square) };
+        (belief, records, rest)
+    }
+
+    fn go_back<F: Form>(
+        &mut self,
+        time: f64,
+        skip: usize,
+        steps: usize,
+        mut visit: impl FnMut(usize, &Belief<T>),
+    ) -> Result<(), StepError> {
+        let n = self.states;
+        let (len, capacity, count) = (Self::record_len(n, self.square_root), self.capacity, self.count);
+        let newest = self.oldest + count - skip.min(count);
+        let square = if F::SQUARE_ROOT { 0 } else { n * n };
+        let (mut belief, records, rest) = self.carve(square);
         visit(0, &belief);
-        for age in 1..=steps.min(self.count) {
+        for age in 1..=steps.min(count - skip.min(count)) {
             let slot = (newest - age) % capacity;
             let mut record = &records[slot * len..(slot + 1) * len];
             let mut next = |len: usize| {
@@ -134,8 +175,8 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
                 gain: next(n * n),
                 conditional: next(n * n - square),
             };
-            step_back::<T, X::Form>(&passage, &mut belief, rest)
-                .map_err(|fault| StepError { fault, time: filter.time(), step: newest - age })?;
+            step_back::<T, F>(&passage, &mut belief, rest)
+                .map_err(|fault| StepError { fault, time, step: newest - age })?;
             visit(age, &belief);
         }
         Ok(())

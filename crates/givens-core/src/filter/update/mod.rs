@@ -60,7 +60,7 @@ pub(crate) fn update<T: Real, H: Observation, R: Rule, F: Form>(
 ) -> Result<(usize, T::Mask), Fault> {
     let (sensed, mut sick) = sense(rule, table, h, at, &measurement, belief, innovation, &mut scratch)?;
     if sensed.d == 0 {
-        innovation.score(0);
+        (*innovation.nis, *innovation.log_likelihood) = (T::zero(), T::zero());
         return Ok((0, sick));
     }
     let more = match (F::SQUARE_ROOT, block) {

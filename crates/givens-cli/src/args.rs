@@ -1,0 +1,168 @@
+//! What the user typed.
+
+use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
+use clap_complete::Shell;
+use std::path::PathBuf;
+
+/// Nonlinear Gaussian state estimation from a model file and a table of measurements.
+#[derive(Debug, Parser)]
+#[command(name = "givens", version, about, after_help = "Exit codes: 0 done; 1 a filter failed, what was finished is \
+written; 2 bad input, nothing written.\nstdout is data, all else goes to stderr.")]
+pub struct Args {
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Estimate each state from the measurements up to it
+    #[command(after_help = "Examples:
+  givens filter turn.toml radar.csv -o track.csv --plot track.svg
+  givens filter turn.toml radar.csv --method sr-ukf --set kappa=1 --format jsonl | head -1
+  givens filter turn.toml - --truth truth.csv < radar.csv > track.csv")]
+    Filter(FilterArgs),
+    /// Estimate each state from all measurements, before and after it
+    #[command(after_help = "Examples:
+  givens smooth turn.toml radar.csv -o track.csv --plot track.png
+  givens smooth turn.toml radar.csv --lag 5          each row with the next five rows
+  givens smooth turn.toml radar.csv --point 0        the state at t = 0, better known with every row")]
+    Smooth(SmoothArgs),
+    /// Draw trajectories and measurements from a model
+    #[command(after_help = "Examples:
+  givens simulate turn.toml --steps 100 --seed 1 -o radar.csv --states truth.csv
+  givens simulate turn.toml --until 60 --every 0.5 --runs 250 --seed 7 -o runs.csv
+  givens simulate turn.toml --times radar.csv --seed 1    the rows, sensors and gaps of a table")]
+    Simulate(SimulateArgs),
+    /// Run several methods over the same data, side by side
+    #[command(after_help = "Example:
+  givens compare turn.toml radar.csv --methods ekf,sr-ukf,sr-ckf --set sr-ukf.kappa=0 --truth truth.csv")]
+    Compare(CompareArgs),
+    /// List the methods, their parts and their options
+    Methods,
+    /// Tell what was understood of a model file
+    #[command(after_help = "Example:\n  givens check turn.toml --set update=separate")]
+    Check(CheckArgs),
+    /// Print a completion script for a shell
+    #[command(after_help = "Example:\n  givens completions bash > ~/.local/share/bash-completion/completions/givens")]
+    Completions {
+        /// The shell
+        shell: Shell,
+    },
+}
+
+/// The model and how to run it.
+#[derive(Debug, ClapArgs)]
+pub struct ModelArgs {
+    /// Model file (TOML)
+    pub model: String,
+    /// Another value for a parameter of the model
+    #[arg(long = "param", value_name = "NAME=VALUE")]
+    pub params: Vec<String>,
+}
+
+#[derive(Debug, ClapArgs)]
+pub struct MethodArgs {
+    /// Method by its registry name (see `givens methods`); without it, that of the file, or sr-ckf
+    #[arg(long, short, value_name = "METHOD")]
+    pub method: Option<String>,
+    /// A part or an option of the method
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub settings: Vec<String>,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum FormatArg {
+    /// One line per row: means, standard deviations, NIS
+    Csv,
+    /// One JSON object per row, with all matrices, in numbers that read back exactly
+    Jsonl,
+}
+
+#[derive(Debug, ClapArgs)]
+pub struct FilterArgs {
+    #[command(flatten)]
+    pub model: ModelArgs,
+    /// Table of measurements (CSV), `-` for standard input
+    pub data: String,
+    #[command(flatten)]
+    pub method: MethodArgs,
+    /// True states (CSV: time and states), for RMSE, NEES and coverage
+    #[arg(long, value_name = "FILE")]
+    pub truth: Option<String>,
+    /// Where to write; standard output without it
+    #[arg(long, short, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// How to write; from the name of the output, else csv
+    #[arg(long, value_enum)]
+    pub format: Option<FormatArg>,
+    /// Draw the track, the states and NIS
+    #[arg(long, value_name = "FILE.svg|png")]
+    pub plot: Option<PathBuf>,
+}
+
+#[derive(Debug, ClapArgs)]
+pub struct SmoothArgs {
+    #[command(flatten)]
+    pub run: FilterArgs,
+    /// Smooth each row with the next ROWS rows only
+    #[arg(long, value_name = "ROWS", conflicts_with = "point")]
+    pub lag: Option<usize>,
+    /// Estimate the state at this one time, a line for each row from it on
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    pub point: Option<String>,
+}
+
+#[derive(Debug, ClapArgs)]
+pub struct SimulateArgs {
+    #[command(flatten)]
+    pub model: ModelArgs,
+    /// Until this time
+    #[arg(long, value_name = "T", allow_hyphen_values = true, conflicts_with_all = ["steps", "times"])]
+    pub until: Option<f64>,
+    /// So many rows
+    #[arg(long, value_name = "N", conflicts_with = "times")]
+    pub steps: Option<usize>,
+    /// Time between rows; the model's step without it
+    #[arg(long, value_name = "DT", conflicts_with = "times")]
+    pub every: Option<f64>,
+    /// At the rows of this table: its times, tracks, sensors, controls; where it has measures, those that it has
+    #[arg(long, value_name = "DATA")]
+    pub times: Option<String>,
+    /// Independent runs, each a track
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub runs: u32,
+    /// Seed of the random numbers: equal seeds draw equal data
+    #[arg(long, value_name = "S")]
+    pub seed: u64,
+    /// Where to write the measurements; standard output without it
+    #[arg(long, short, value_name = "DATA")]
+    pub output: Option<PathBuf>,
+    /// Where to write the true states
+    #[arg(long, value_name = "FILE")]
+    pub states: Option<PathBuf>,
+}
+
+#[derive(Debug, ClapArgs)]
+pub struct CompareArgs {
+    #[command(flatten)]
+    pub model: ModelArgs,
+    /// Table of measurements (CSV), `-` for standard input
+    pub data: String,
+    /// Methods, with commas between
+    #[arg(long, value_name = "A,B,…", value_delimiter = ',', required = true)]
+    pub methods: Vec<String>,
+    /// A part or an option, of all methods or of one
+    #[arg(long = "set", value_name = "[METHOD.]KEY=VALUE")]
+    pub settings: Vec<String>,
+    /// True states (CSV: time and states), for RMSE, NEES and coverage
+    #[arg(long, value_name = "FILE")]
+    pub truth: Option<String>,
+}
+
+#[derive(Debug, ClapArgs)]
+pub struct CheckArgs {
+    #[command(flatten)]
+    pub model: ModelArgs,
+    #[command(flatten)]
+    pub method: MethodArgs,
+}

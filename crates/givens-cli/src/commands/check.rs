@@ -1,0 +1,61 @@
+//! `givens check`: what was understood of a model file.
+
+use crate::args::CheckArgs;
+use crate::message::Stop;
+use crate::plan::{choose, model, settings};
+use crate::stdout;
+use givens::model::Transition;
+use givens_io::Model;
+use std::io::{self, Write};
+
+/// Reads the model and its method, and tells sizes, sensors and parts.
+pub fn check(args: &CheckArgs) -> Result<(), Stop> {
+    let model = model(&args.model)?;
+    let choice = choose(&model, args.method.method.as_deref(), &settings(&args.method)?)?;
+    let mut parts = format!("{}: rule {}, form {}", choice.name, choice.rule.word(), choice.form.word());
+    if choice.form == givens::registry::FormName::SquareRoot {
+        parts += &format!(", update {}", if choice.block == givens::filter::Block::Joint { "joint" } else { "separate" });
+    }
+    stdout::write(|out| tell(out, &model, &parts))
+}
+
+fn tell(out: &mut dyn Write, model: &Model, method: &str) -> io::Result<()> {
+    let n = model.states.len();
+    writeln!(out, "{}: a discrete-time model, {n} states, {} measures", model.file, model.measures())?;
+    let step = match model.transition.period() {
+        Some(step) => format!("steps of {step}"),
+        None => "one transition per gap".to_owned(),
+    };
+    let noisy = if model.transition.noise() == givens::model::Noise::Root(0) { ", no process noise" } else { "" };
+    writeln!(out, "  time        {step}{noisy}")?;
+    let begins = match (model.time, &model.start) {
+        (Some(time), _) => format!("at {time}"),
+        (None, Some(_)) => "at the first row that `start` can read".to_owned(),
+        (None, None) => "at the first row of each track".to_owned(),
+    };
+    writeln!(out, "  begins      {begins}")?;
+    for (i, name) in model.states.iter().enumerate() {
+        let belief = match model.prior.mean[i] {
+            Some(mean) => format!("{mean} ± {}", model.prior.cov[i * n + i].sqrt()),
+            None => "from `start`".to_owned(),
+        };
+        writeln!(out, "  state       {name}: {belief}")?;
+    }
+    for (name, value) in &model.parameters {
+        writeln!(out, "  parameter   {name} = {value}")?;
+    }
+    if !model.controls.is_empty() {
+        writeln!(out, "  controls    {}", model.controls.join(", "))?;
+    }
+    for sensor in &model.sensors {
+        let measures = sensor.columns.iter().zip(&sensor.angles).map(|(name, angle)| match angle {
+            Some(period) => format!("{name} (angle, period {period})"),
+            None => name.clone(),
+        });
+        writeln!(out, "  sensor      {}: {}", sensor.name, measures.collect::<Vec<_>>().join(", "))?;
+    }
+    if let Some([x, y]) = model.plane {
+        writeln!(out, "  plane       {} across, {} upwards", model.states[x], model.states[y])?;
+    }
+    writeln!(out, "  method      {method}")
+}

@@ -1,0 +1,81 @@
+//! The figure of a run.
+
+use crate::message::Stop;
+use crate::plan::Plan;
+use crate::session::Session;
+use givens::metrics::chi_squared_band;
+use givens_io::figure::{NisSeries, PlaneTrack, StateSeries, Track, TrackFigure, write};
+use std::collections::HashMap;
+use std::path::Path;
+
+/// Only these endings are drawn; told before anything runs.
+pub fn check(path: &Path) -> Result<(), Stop> {
+    let ending = path.extension().and_then(|ending| ending.to_str()).map(str::to_lowercase);
+    if matches!(ending.as_deref(), Some("svg" | "png")) {
+        return Ok(());
+    }
+    Err(Stop::input(format!("--plot {}: the name must end in .svg or .png", path.display())))
+}
+
+/// Draws the run.
+pub fn draw(path: &Path, plan: &Plan, session: &Session) -> Result<(), Stop> {
+    let model = &plan.model;
+    let plane = model.plane;
+    let name = |i: usize| model.states[i].clone();
+    let smoothed = session.estimates().any(givens::Estimates::is_smoothed);
+    let what = if smoothed { "smoothed" } else { "filtered" };
+    let figure = TrackFigure {
+        title: format!("{} — {what} by {}", stem(&model.file), plan.choice.name),
+        plane_labels: plane.map_or_else(Default::default, |[x, y]| [name(x), name(y)]),
+        tracks: (0..session.answers.len()).map(|i| track(plan, session, i)).collect(),
+        smoothed,
+        ..TrackFigure::default()
+    };
+    write(path, &figure.figure()).map_err(|error| Stop::failed(format!("--plot: {error}")))
+}
+
+fn stem(file: &str) -> &str {
+    Path::new(file).file_stem().and_then(|stem| stem.to_str()).unwrap_or(file)
+}
+
+fn track(plan: &Plan, session: &Session, i: usize) -> Track {
+    let (answer, rows) = (&session.answers[i], &plan.tracks.tracks[i].rows);
+    let est = &answer.estimates;
+    let n = est.states();
+    let truth = session.truth_at_rows(plan, i);
+    let series = |state: usize, of: &[f64]| -> Vec<f64> { of.iter().skip(state).step_by(n.max(1)).copied().collect() };
+    let states = (0..n).map(|state| StateSeries {
+        name: plan.model.states[state].clone(),
+        time: est.time.clone(),
+        mean: series(state, &est.mean),
+        std: (0..est.len()).map(|row| est.std(row, state)).collect(),
+        filtered: est.is_smoothed().then(|| series(state, &est.filtered_mean)),
+        truth: truth.as_ref().map(|truth| series(state, &truth.states)),
+    });
+    let plane = plan.model.plane.map(|[x, y]| {
+        let pairs = |of: &[f64]| -> Vec<[f64; 2]> { of.chunks_exact(n).map(|row| [row[x], row[y]]).collect() };
+        PlaneTrack {
+            estimate: pairs(&est.mean),
+            covariance: est.cov.chunks_exact(n * n).map(|p| [p[x * n + x], p[x * n + y], p[y * n + y]]).collect(),
+            filtered: est.is_smoothed().then(|| pairs(&est.filtered_mean)),
+            measurements: rows.iter().filter_map(|row| plan.model.place(row)).collect(),
+            truth: true_way(plan, i, x, y),
+        }
+    });
+    let name = plan.tracks.tracks[i].id.clone().unwrap_or_default();
+    Track { name, plane, states: states.collect(), nis: Some(nis(est)) }
+}
+
+/// The whole true track in the plane, between the rows too.
+fn true_way(plan: &Plan, i: usize, x: usize, y: usize) -> Option<Vec<[f64; 2]>> {
+    let truth = plan.truth.as_ref()?;
+    let (xs, ys) = (truth.states[x].as_ref()?, truth.states[y].as_ref()?);
+    Some((0..truth.times.len()).filter(|&k| truth.tracks[k] == i).map(|k| [xs[k], ys[k]]).collect())
+}
+
+fn nis(est: &givens::Estimates) -> NisSeries {
+    let mut bands: HashMap<usize, (f64, f64)> = HashMap::new();
+    let mut band = |dof: usize| *bands.entry(dof).or_insert_with(|| chi_squared_band(dof as f64));
+    let (lower, upper) = est.nis_dof.iter().map(|&dof| band(dof)).unzip();
+    NisSeries { time: est.time.clone(), nis: est.nis.clone(), lower, upper }
+}

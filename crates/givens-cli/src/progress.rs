@@ -1,0 +1,71 @@
+//! Progress on stderr, of work that takes longer than a second.
+
+use givens::Row;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::time::{Duration, Instant};
+
+/// A bar over the rows of all tracks. On anything but a terminal it is silent.
+#[derive(Clone)]
+pub struct Progress {
+    bar: ProgressBar,
+    since: Instant,
+}
+
+impl Progress {
+    pub fn new(rows: usize) -> Self {
+        let bar = ProgressBar::with_draw_target(Some(rows as u64), ProgressDrawTarget::hidden());
+        if let Ok(style) = ProgressStyle::with_template("{bar:40} {human_pos}/{human_len} rows, {eta} left") {
+            bar.set_style(style);
+        }
+        Self { bar, since: Instant::now() }
+    }
+
+    fn tick(&self, rows: u64) {
+        self.bar.inc(rows);
+        if self.bar.is_hidden() && self.since.elapsed() > Duration::from_secs(1) {
+            self.bar.set_draw_target(ProgressDrawTarget::stderr_with_hz(5));
+        }
+    }
+
+    pub fn finish(&self) {
+        self.bar.finish_and_clear();
+    }
+
+    /// The same rows, each of them counted when it is taken.
+    pub fn counting<'a, I>(&self, rows: I) -> Counting<I>
+    where
+        I: Iterator<Item = Row<'a>> + Clone,
+    {
+        Counting { rows, taken: 0, progress: self.clone() }
+    }
+}
+
+/// Rows that move the bar. Every so many rows: looking at the clock costs more than a row.
+#[derive(Clone)]
+pub struct Counting<I> {
+    rows: I,
+    taken: u64,
+    progress: Progress,
+}
+
+const STRIDE: u64 = 1024;
+
+impl<'a, I: Iterator<Item = Row<'a>> + Clone> Iterator for Counting<I> {
+    type Item = Row<'a>;
+
+    fn next(&mut self) -> Option<Row<'a>> {
+        let row = self.rows.next();
+        if row.is_some() {
+            self.taken += 1;
+            if self.taken.is_multiple_of(STRIDE) {
+                self.progress.tick(STRIDE);
+            }
+        }
+        row
+    }
+
+    /// Counting ahead is no progress.
+    fn count(self) -> usize {
+        self.rows.count()
+    }
+}

@@ -1,0 +1,99 @@
+//! What stderr says at the end: how much was done, how likely it was, how right; and what failed, by name.
+
+use crate::message::say;
+use crate::plan::Plan;
+use crate::session::Session;
+use givens::filter::{Fault, Matrix, Quantity, StepError};
+use givens::metrics::{Accuracy, Consistency};
+use givens_io::{Model, Row, Track};
+
+/// The closing lines of a run.
+pub fn closing(plan: &Plan, session: &Session) {
+    let rows: usize = session.estimates().map(givens::Estimates::len).sum();
+    let tracks = plan.tracks.tracks.len();
+    let log_likelihood: f64 = session.estimates().map(givens::Estimates::total_log_likelihood).sum();
+    let of = if tracks == 1 { String::new() } else { format!(" of {tracks} tracks") };
+    let consistency = Consistency::of(session.estimates());
+    say(&format!("{}: {rows} rows{of}, log-likelihood {log_likelihood:.3}, {consistency}", plan.choice.name));
+    if let Some(accuracy) = session.accuracy(plan) {
+        for line in accuracy_lines(&plan.model, &accuracy) {
+            say(&line);
+        }
+    }
+}
+
+/// RMSE, coverage and NEES, a line for each state.
+fn accuracy_lines(model: &Model, accuracy: &Accuracy) -> Vec<String> {
+    let width = model.states.iter().map(|name| name.chars().count()).max().unwrap_or(0).max(5);
+    let mut lines = vec![format!("against the truth:\n  {:width$} {:>12} {:>12} {:>8}", "state", "RMSE", "within 2σ", "rows")];
+    for (i, name) in model.states.iter().enumerate() {
+        if accuracy.rows[i] > 0 {
+            let percent = 100.0 * accuracy.coverage[i];
+            lines.push(format!("  {name:width$} {:>12.5} {percent:>10.1} % {:>8}", accuracy.rmse[i], accuracy.rows[i]));
+        }
+    }
+    if accuracy.rows.iter().all(|&rows| rows == 0) {
+        lines.push("  no row of the data stands at a time of the truth".into());
+    } else {
+        let per = accuracy.nees / accuracy.nees_dof;
+        lines.push(format!(
+            "  mean NEES {:.3} of {:.1} states known, {per:.3} per state (1 if the covariances are right; 2σ holds 95.4 %)",
+            accuracy.nees, accuracy.nees_dof
+        ));
+    }
+    lines
+}
+
+/// Why and where a track failed, by the names of the model.
+pub fn failure(model: &Model, data: &str, track: &Track, row: &Row, error: &StepError) -> String {
+    let name = track.id.as_ref().map_or(String::new(), |id| format!("track {id}, "));
+    format!(
+        "{data}:{}: {name}t = {}, step {}: the filter failed: {}",
+        row.line,
+        track.time_text(error.time),
+        error.step,
+        fault(model, &error.fault)
+    )
+}
+
+/// A fault with the model's own names.
+fn fault(model: &Model, fault: &Fault) -> String {
+    let state = |i: usize| model.states.get(i).map_or_else(|| (i + 1).to_string(), |name| format!("`{name}`"));
+    let columns: Vec<&String> = model.sensors.iter().flat_map(|sensor| &sensor.columns).collect();
+    let measure = |i: usize| columns.get(i).map_or_else(|| (i + 1).to_string(), |name| format!("`{name}`"));
+    match *fault {
+        Fault::NotPositive { matrix, pivot } => {
+            let (kind, name) = match matrix {
+                Matrix::Innovation | Matrix::MeasurementNoise => ("measure", measure(pivot)),
+                _ => ("state", state(pivot)),
+            };
+            let remedy = remedy(matrix);
+            format!("the {} is not positive definite at pivot {} ({kind} {name}); {remedy}", matrix.name(), pivot + 1)
+        }
+        Fault::SingularInnovation { measure: i } => format!(
+            "the innovation covariance is singular at pivot {} (measure {}): nothing is uncertain about it; give it a \
+             std above zero",
+            i + 1,
+            measure(i)
+        ),
+        Fault::NotFinite { quantity, component } => match quantity {
+            Quantity::Transition | Quantity::Estimate | Quantity::ProcessNoise => {
+                format!("the {} of {} is not a finite number", quantity.name(), state(component))
+            }
+            Quantity::Observation | Quantity::MeasurementNoise | Quantity::Measurement => {
+                format!("the {} {} is not a finite number", quantity.name(), measure(component))
+            }
+            _ => fault.to_string(),
+        },
+        _ => fault.to_string(),
+    }
+}
+
+/// The way out of a covariance that does not exist.
+fn remedy(matrix: Matrix) -> &'static str {
+    match matrix {
+        Matrix::ProcessNoise | Matrix::MeasurementNoise => "check its expressions at this time",
+        Matrix::Prior => "check the initial covariance",
+        _ => "try a square-root method, a rule without negative weights (sr-ckf), or more noise",
+    }
+}

@@ -1,0 +1,90 @@
+//! A plan carried out: the method over every track.
+
+use crate::plan::Plan;
+use crate::progress::Progress;
+use crate::report;
+use givens::metrics::{Accuracy, Truth};
+use givens::registry::Choice;
+use givens::{Estimates, Goal, Row};
+use givens_io::Answer;
+
+/// What came of a plan.
+pub struct Session {
+    /// One for each track.
+    pub answers: Vec<Answer>,
+    /// Tracks that failed, in words.
+    pub failures: Vec<String>,
+}
+
+impl Session {
+    /// Runs `choice` over all tracks; a track that fails does not stop the others.
+    pub fn run(plan: &Plan, choice: &Choice, goals: &[Goal]) -> Self {
+        let rows = plan.tracks.tracks.iter().map(|track| track.rows.len()).sum();
+        let progress = Progress::new(rows);
+        let (mut answers, mut failures) = (Vec::new(), Vec::new());
+        let empty = vec![f64::NAN; plan.model.measures()];
+        for ((track, begin), goal) in plan.tracks.tracks.iter().zip(&plan.beginnings).zip(goals) {
+            let rows = track.rows[begin.row..].iter().enumerate().map(|(k, row)| {
+                // what `start` has read is not used again
+                let z = if begin.started && k == 0 { &empty } else { &row.z };
+                Row { time: row.time, z, u: &row.u }
+            });
+            let rows = progress.counting(rows);
+            let (model, sensors) = (&plan.model.transition, &plan.model.observation);
+            let outcome = choice.run(model, sensors, rows, begin.time, &begin.prior, *goal);
+            if let Some((row, error)) = &outcome.failure {
+                let at = &track.rows[begin.row + row];
+                failures.push(report::failure(&plan.model, &plan.data, track, at, error));
+            }
+            let finished = outcome.estimates;
+            let mut row = begin.row;
+            let from_first = matches!(goal, Goal::Point(_));
+            if from_first {
+                // a fixed point has no estimate before its time
+                let ran = outcome.failure.as_ref().map_or(track.rows.len() - begin.row, |(row, _)| *row);
+                row += ran.saturating_sub(finished.len());
+            }
+            let started = begin.started && row == begin.row;
+            answers.push(Answer { estimates: finished, row, started, from_first });
+        }
+        progress.finish();
+        Self { answers, failures }
+    }
+
+    /// All estimates.
+    pub fn estimates(&self) -> impl Iterator<Item = &Estimates> {
+        self.answers.iter().map(|answer| &answer.estimates)
+    }
+
+    /// The truth at the rows of track `i`, NaN where there is none.
+    pub fn truth_at_rows(&self, plan: &Plan, i: usize) -> Option<Truth> {
+        let truth = plan.truth.as_ref()?;
+        let est = &self.answers[i].estimates;
+        let n = plan.model.states.len();
+        let mut states = vec![f64::NAN; est.len() * n];
+        let times: Vec<usize> = (0..truth.times.len()).filter(|&k| truth.tracks[k] == i).collect();
+        for (row, &t) in est.time.iter().enumerate() {
+            let near = times.partition_point(|&k| truth.times[k] < t - close(t));
+            let Some(&k) = times.get(near).filter(|&&k| (truth.times[k] - t).abs() <= close(t)) else { continue };
+            for (state, column) in truth.states.iter().enumerate() {
+                if let Some(column) = column {
+                    states[row * n + state] = column[k];
+                }
+            }
+        }
+        Some(Truth { states })
+    }
+
+    /// Errors against the truth, of all tracks together and of each state.
+    pub fn accuracy(&self, plan: &Plan) -> Option<Accuracy> {
+        plan.truth.as_ref()?;
+        let accuracies = (0..self.answers.len())
+            .filter_map(|i| Some(Accuracy::of(&self.answers[i].estimates, &self.truth_at_rows(plan, i)?)));
+        Accuracy::pooled(accuracies)
+    }
+}
+
+/// Times that differ by rounding only are the same.
+fn close(t: f64) -> f64 {
+    1e-9 * t.abs().max(1.0)
+}

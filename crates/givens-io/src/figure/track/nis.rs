@@ -1,0 +1,130 @@
+//! The panel of the normalised innovation squared.
+
+use super::NisSeries;
+use crate::figure::colour::Colour;
+use crate::figure::number;
+use crate::figure::plot::{Axis, Mark, Panel, Shape};
+use crate::figure::scale::Scale;
+
+/// With more changes of the degrees of freedom than this, bands are drawn over one another.
+const FEW_CHANGES: usize = 10;
+/// At most so many bands over one another.
+const MOST_BANDS: usize = 4;
+
+struct Row {
+    time: f64,
+    nis: f64,
+    bounds: [f64; 2],
+}
+
+/// NIS over time against its 95 % band. The scale is linear where the band is and logarithmic above it,
+/// so that outliers are shown and yet flatten nothing.
+pub(super) fn panel(series: &NisSeries, x: Axis) -> Panel {
+    let bounds = series.lower.iter().zip(&series.upper);
+    let rows: Vec<Row> = series
+        .time
+        .iter()
+        .zip(&series.nis)
+        .zip(bounds)
+        .map(|((time, nis), (lower, upper))| Row { time: *time, nis: *nis, bounds: [*lower, *upper] })
+        .filter(|r| r.time.is_finite() && r.nis.is_finite())
+        .collect();
+    let mut marks = Vec::new();
+    for (i, rows) in bands(&rows).into_iter().enumerate() {
+        let name = if i == 0 { "95\u{2009}% band of χ²" } else { "" };
+        marks.push(Mark::new(name, Colour::GREEN.faded(38), Shape::Band { rows }));
+    }
+    let judged: Vec<&Row> = rows.iter().filter(|r| r.bounds.iter().all(|b| b.is_finite())).collect();
+    let inside = |r: &Row| r.nis >= r.bounds[0] && r.nis <= r.bounds[1];
+    let dots = |keep: &dyn Fn(&Row) -> bool| -> Vec<[f64; 2]> {
+        rows.iter().filter(|r| keep(r)).map(|r| [r.time, r.nis]).collect()
+    };
+    let outside = |r: &Row| r.bounds.iter().all(|b| b.is_finite()) && !inside(r);
+    let disc = |points| Shape::Dots { points, radius: 1.7, hollow: false };
+    marks.push(Mark::new("NIS", Colour::GREY, disc(dots(&|r| !outside(r)))));
+    let out = dots(&outside);
+    if !out.is_empty() {
+        marks.push(Mark::new("NIS outside its band", Colour::VERMILION, disc(out)));
+    }
+    let count = judged.iter().filter(|r| inside(r)).count();
+    let remark = if judged.is_empty() {
+        String::new()
+    } else {
+        let share = 100.0 * count as f64 / judged.len() as f64;
+        format!("{}\u{2009}% within the band; 95\u{2009}% expected", number::short(share.round()))
+    };
+    Panel { heading: "NIS".into(), remark, x, y: axis(&rows), marks, ..Panel::default() }
+}
+
+fn axis(rows: &[Row]) -> Axis {
+    let bound = rows.iter().map(|r| r.bounds[1]).filter(|b| b.is_finite()).fold(0.0, f64::max);
+    let top = rows.iter().map(|r| r.nis).filter(|v| *v < 1e290).fold(bound, f64::max);
+    if !(top > 0.0 && top < 1e290) {
+        return Axis::default();
+    }
+    let unit = if bound > 0.0 { 0.3 * bound } else { 0.1 * top };
+    let scale = Scale::Compressed { unit };
+    let over = scale.backward(1.06 * scale.forward(top));
+    Axis { scale, range: Some([0.0, over]), ..Axis::default() }
+}
+
+/// The bands to draw. Degrees of freedom that change now and then give one stepped band; where they
+/// change all the time, as with sensors in turn, each pair of bounds gives a band of its own.
+fn bands(rows: &[Row]) -> Vec<Vec<[f64; 3]>> {
+    let known: Vec<&Row> = rows.iter().filter(|r| r.bounds.iter().all(|b| b.is_finite())).collect();
+    let changes = known.windows(2).filter(|w| w[0].bounds != w[1].bounds).count();
+    let mut kinds: Vec<[f64; 2]> = Vec::new();
+    for row in &known {
+        if kinds.len() <= MOST_BANDS && !kinds.contains(&row.bounds) {
+            kinds.push(row.bounds);
+        }
+    }
+    if changes > FEW_CHANGES && kinds.len() <= MOST_BANDS {
+        let of = |kind: &[f64; 2]| {
+            let mut of_kind = known.iter().filter(|r| r.bounds == *kind);
+            let first = of_kind.next()?.time;
+            let last = of_kind.next_back().map_or(first, |r| r.time);
+            Some(vec![[first, kind[0], kind[1]], [last, kind[0], kind[1]]])
+        };
+        return kinds.iter().filter_map(of).collect();
+    }
+    let mut stepped: Vec<[f64; 3]> = Vec::new();
+    let mut last: Option<&Row> = None;
+    for row in known {
+        if let Some(before) = last.filter(|b| b.bounds != row.bounds) {
+            let middle = before.time + (row.time - before.time) / 2.0;
+            stepped.push([middle, before.bounds[0], before.bounds[1]]);
+            stepped.push([middle, row.bounds[0], row.bounds[1]]);
+        }
+        stepped.push([row.time, row.bounds[0], row.bounds[1]]);
+        last = Some(row);
+    }
+    if stepped.is_empty() { Vec::new() } else { vec![stepped] }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn rows(bounds: impl Fn(usize) -> [f64; 2]) -> Vec<Row> {
+        (0..100).map(|i| Row { time: i as f64, nis: 1.0, bounds: bounds(i) }).collect()
+    }
+
+    #[test]
+    fn sensors_in_turn_give_a_band_each_and_a_dropout_gives_a_step() {
+        let [two, three] = [[0.05, 7.4], [0.2, 9.3]];
+        assert_eq!(bands(&rows(|i| if i % 2 == 0 { two } else { three })).len(), 2);
+        let stepped = bands(&rows(|i| if i < 50 { two } else { three }));
+        assert_eq!((stepped.len(), stepped[0].len()), (1, 102));
+    }
+
+    #[test]
+    fn an_outlier_leaves_the_band_a_quarter_of_the_panel() {
+        let mut rows = rows(|_| [0.05, 7.4]);
+        rows[7].nis = 5000.0;
+        let axis = axis(&rows);
+        let share = axis.scale.forward(7.4) / axis.scale.forward(axis.range.unwrap()[1]);
+        assert!(share > 0.15, "{share}");
+        assert!(axis.range.unwrap()[1] > 5000.0);
+    }
+}

@@ -1,0 +1,153 @@
+//! Where the panels of a track stand on the page.
+
+use super::{StateSeries, Track, TrackFigure, nis, plane, state};
+use crate::figure::plot::{Axis, Block, Figure, Grid, Panel};
+use crate::figure::scale::{Scale, span};
+
+const WIDTH: f64 = 1280.0;
+/// Height of one row of states in pixels.
+const ROW: f64 = 122.0;
+/// More states than this are not drawn.
+const MOST_STATES: usize = 48;
+/// A track flatter than this gets the full width.
+const FLAT: f64 = 0.36;
+
+/// Lays out the figure.
+pub(super) fn figure(given: &TrackFigure) -> Figure {
+    let shown = given.tracks.iter().find(|t| !t.states.is_empty() || t.nis.is_some());
+    let states: &[StateSeries] = shown.map_or(&[], |t| t.states.as_slice());
+    let drawn = &states[..states.len().min(MOST_STATES)];
+    let plane = plane::panel(given);
+    let nis = shown.and_then(|t| t.nis.as_ref()).map(|n| nis::panel(n, time_axis(given, shown)));
+    let pairs = drawn.iter().any(|s| s.truth.is_some());
+    let columns = |group: usize| states_grid(given, shown, drawn, group);
+    let (body, width, height) = match (plane, drawn.len()) {
+        (None, 0) => (grid(1, &[1.0], vec![nis]), WIDTH, 300.0),
+        (None, n) => {
+            let groups = if pairs { 1 + n / 9 } else { 1 + n / 4 }.min(if pairs { 2 } else { 4 });
+            under(columns(groups), rows(n, groups), nis, None)
+        }
+        (Some((plane, ratio)), 0) => {
+            let height = (900.0 * ratio).clamp(320.0, 820.0);
+            let below = nis.is_some();
+            let weights = if below { vec![height, 150.0] } else { vec![height] };
+            let body = grid(1, &weights, vec![Some(plane), nis]);
+            (body, 960.0, height + if below { 240.0 } else { 70.0 })
+        }
+        (Some((plane, ratio)), n) if ratio < FLAT || n > 12 => {
+            let height = (1180.0 * ratio).clamp(240.0, 520.0);
+            let groups = if pairs {
+                2
+            } else if n > 12 {
+                4
+            } else {
+                2
+            };
+            under(columns(groups), rows(n, groups), nis, Some((plane, height)))
+        }
+        (Some((plane, ratio)), n) => {
+            beside((plane, ratio), columns(1 + (n - 1) / 6), rows(n, 1 + (n - 1) / 6), nis, pairs)
+        }
+    };
+    let title = given.title.clone();
+    Figure { title, notes: notes(given, shown, states.len()), key: true, body, width, height }
+}
+
+fn rows(states: usize, groups: usize) -> usize {
+    states.div_ceil(groups.max(1))
+}
+
+/// The plane, if any, over the states over NIS.
+fn under(states: Block, rows: usize, nis: Option<Panel>, plane: Option<(Panel, f64)>) -> (Block, f64, f64) {
+    let mut blocks = Vec::new();
+    if let Some((plane, height)) = plane {
+        blocks.push((height + 70.0, grid(1, &[1.0], vec![Some(plane)])));
+    }
+    let row = if rows <= 2 { 1.6 * ROW } else { ROW };
+    blocks.push((row * rows as f64 + 40.0, states));
+    if let Some(nis) = nis {
+        blocks.push((190.0, grid(1, &[1.0], vec![Some(nis)])));
+    }
+    let height = blocks.iter().map(|b| b.0).sum();
+    (Block::Column(blocks), WIDTH, height)
+}
+
+/// The plane over NIS on the left, the states on the right.
+fn beside(
+    (plane, ratio): (Panel, f64),
+    states: Block,
+    rows: usize,
+    nis: Option<Panel>,
+    pairs: bool,
+) -> (Block, f64, f64) {
+    let height = (ROW * rows as f64 + 40.0).max(600.0);
+    let share = match (pairs, ratio > 1.5) {
+        (true, false) => 0.42,
+        (false, false) => 0.5,
+        (_, true) => 0.34,
+    };
+    let left = match nis {
+        None => grid(1, &[1.0], vec![Some(plane)]),
+        Some(nis) => {
+            // What the plane wants of the height that is left beside labels and headings.
+            let room = height - 100.0;
+            let wanted = (ratio * (share * WIDTH - 100.0)).clamp(0.5 * room, room - 120.0);
+            let below = (room - wanted).min(260.0);
+            grid(1, &[room - below, below], vec![Some(plane), Some(nis)])
+        }
+    };
+    (Block::Row(vec![(share, left), (1.0 - share, states)]), WIDTH, height)
+}
+
+fn grid(columns: usize, rows: &[f64], cells: Vec<Option<Panel>>) -> Block {
+    Block::Grid(Grid { columns: vec![1.0; columns], rows: rows.to_vec(), cells })
+}
+
+/// The states in so many groups side by side, filled downwards; with a truth, each beside its error.
+fn states_grid(given: &TrackFigure, shown: Option<&Track>, states: &[StateSeries], groups: usize) -> Block {
+    let pairs = states.iter().any(|s| s.truth.is_some());
+    let rows = rows(states.len(), groups).max(1);
+    let mut cells = Vec::new();
+    for i in 0..rows * groups {
+        let (row, group) = (i / groups, i % groups);
+        let index = group * rows + row;
+        // Time is written once under each column.
+        let labelled = row + 1 == rows || index + 1 >= states.len();
+        let axis = || Axis { labelled, ..time_axis(given, shown) };
+        let Some(series) = states.get(index) else {
+            cells.extend((0..=usize::from(pairs)).map(|_| None));
+            continue;
+        };
+        cells.push(Some(state::estimate(series, axis(), given.smoothed)));
+        if pairs {
+            cells.push(series.truth.as_ref().map(|truth| state::error(series, truth, axis())));
+        }
+    }
+    let columns = if pairs { 2 * groups } else { groups };
+    grid(columns, &vec![1.0; rows], cells)
+}
+
+/// One range of time for all panels.
+fn time_axis(given: &TrackFigure, shown: Option<&Track>) -> Axis {
+    let label = if given.time_label.is_empty() { "time (s)".to_owned() } else { given.time_label.clone() };
+    let states = shown.into_iter().flat_map(|t| &t.states).flat_map(|s| &s.time);
+    let nis = shown.into_iter().flat_map(|t| &t.nis).flat_map(|s| &s.time);
+    let found = span(Scale::Linear, states.chain(nis).copied());
+    let range = found.map(|_| Scale::Linear.range(found, 0.012));
+    Axis { label, range, ..Axis::default() }
+}
+
+fn notes(given: &TrackFigure, shown: Option<&Track>, states: usize) -> Vec<String> {
+    let mut notes = given.notes.clone();
+    if let (true, Some(track)) = (given.tracks.len() > 1, shown) {
+        notes.push(format!(
+            "{} tracks; states and NIS are those of {}.",
+            given.tracks.len(),
+            if track.name.is_empty() { "the first" } else { &track.name }
+        ));
+    }
+    if states > MOST_STATES {
+        notes.push(format!("The first {MOST_STATES} of {states} states."));
+    }
+    notes
+}

@@ -1,0 +1,89 @@
+//! A file that appears whole or not at all.
+
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+/// A file in the making: `PATH.partial` until it is finished, then `PATH`.
+#[derive(Debug)]
+pub struct Destination {
+    path: PathBuf,
+    partial: PathBuf,
+    file: Option<BufWriter<File>>,
+}
+
+/// Why a file could not be written.
+#[derive(Debug)]
+pub struct DestinationError {
+    /// The file.
+    pub path: PathBuf,
+    /// What the system said.
+    pub source: io::Error,
+}
+
+impl std::fmt::Display for DestinationError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "cannot write {}: {}", self.path.display(), self.source)?;
+        match self.source.kind() {
+            io::ErrorKind::NotFound => write!(f, "; make its folder first"),
+            io::ErrorKind::PermissionDenied => write!(f, "; choose a folder that you may write to"),
+            _ => Ok(()),
+        }
+    }
+}
+
+impl std::error::Error for DestinationError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        Some(&self.source)
+    }
+}
+
+impl Destination {
+    /// Opens `PATH.partial`.
+    ///
+    /// # Errors
+    /// A path that cannot be written, or that is a folder.
+    pub fn create(path: impl AsRef<Path>) -> Result<Self, DestinationError> {
+        let path = path.as_ref().to_owned();
+        let mut partial = path.clone().into_os_string();
+        partial.push(".partial");
+        let partial = PathBuf::from(partial);
+        if path.is_dir() {
+            let source = io::Error::new(io::ErrorKind::IsADirectory, "it is a folder");
+            return Err(DestinationError { path, source });
+        }
+        match File::create(&partial) {
+            Ok(file) => Ok(Self { path, partial, file: Some(BufWriter::new(file)) }),
+            Err(source) => Err(DestinationError { path, source }),
+        }
+    }
+
+    /// Gives the finished file its name.
+    ///
+    /// # Errors
+    /// A disk that is full, or a file that cannot be replaced; `PATH.partial` is left.
+    pub fn finish(mut self) -> Result<(), DestinationError> {
+        let Some(file) = self.file.take() else { return Ok(()) };
+        let done = file.into_inner().map_err(io::IntoInnerError::into_error);
+        let done = done.and_then(|file| file.sync_all()).and_then(|()| fs::rename(&self.partial, &self.path));
+        done.map_err(|source| DestinationError { path: self.path.clone(), source })
+    }
+}
+
+impl Write for Destination {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.file.as_mut().map_or(Ok(0), |file| file.write(bytes))
+    }
+    fn flush(&mut self) -> io::Result<()> {
+        self.file.as_mut().map_or(Ok(()), Write::flush)
+    }
+}
+
+impl Drop for Destination {
+    /// A file that was not finished leaves nothing behind.
+    fn drop(&mut self) {
+        if self.file.take().is_some() {
+            let _ = fs::remove_file(&self.partial);
+        }
+    }
+}

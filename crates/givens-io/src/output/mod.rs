@@ -1,0 +1,82 @@
+//! Answers: the estimates of all tracks, as CSV or JSON lines, in the order of the table's rows.
+
+mod csv;
+mod destination;
+mod jsonl;
+mod simulated;
+
+use givens::Estimates;
+use std::io::{self, Write};
+
+pub use destination::{Destination, DestinationError};
+pub use simulated::{Drawn, write_measurements, write_states};
+
+use crate::model_file::Model;
+use crate::table::{Row, Tracks};
+
+/// How answers are written.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Format {
+    /// `time[,track_id][,sensor],<state>…,<state>_std…,nis,nis_dof,log_likelihood`.
+    #[default]
+    Csv,
+    /// One JSON object per row, with all matrices.
+    Jsonl,
+}
+
+/// The answer for one track.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Answer {
+    /// The estimates of the finished rows.
+    pub estimates: Estimates,
+    /// The row of the track that the first estimate is of.
+    pub row: usize,
+    /// The first estimate is the initial belief that `start` found: nothing was predicted or measured there.
+    pub started: bool,
+    /// Rows before the first estimate have no line of output, in place of an empty one.
+    pub from_first: bool,
+}
+
+/// A row of output: a row of the table, and the estimate of it if there is one.
+struct Line<'a> {
+    track: Option<&'a str>,
+    row: &'a Row,
+    sensor: Option<&'a str>,
+    estimate: Option<(&'a Estimates, usize)>,
+    started: bool,
+}
+
+/// A number that reads back exactly, with an exponent where digits alone would be long.
+fn digits(x: f64) -> String {
+    let plain = x == 0.0 || (1e-5..1e16).contains(&x.abs());
+    if plain { x.to_string() } else { format!("{x:e}") }
+}
+
+/// Writes the answers, one for each of the tracks, as one table in the order of the rows.
+///
+/// # Errors
+/// What the writer says.
+pub fn write_answers(
+    out: &mut dyn Write,
+    format: Format,
+    model: &Model,
+    tracks: &Tracks,
+    answers: &[Answer],
+) -> io::Result<()> {
+    let mut lines = Vec::new();
+    for (track, answer) in tracks.tracks.iter().zip(answers) {
+        let end = answer.row + answer.estimates.len();
+        let begin = if answer.from_first { answer.row } else { 0 };
+        for (k, row) in track.rows.iter().enumerate().take(end).skip(begin) {
+            let estimate = k.checked_sub(answer.row).map(|at| (&answer.estimates, at));
+            let sensor = row.sensor.and_then(|i| model.sensors.get(i)).map(|sensor| sensor.name.as_str());
+            let started = answer.started && k == answer.row;
+            lines.push(Line { track: track.id.as_deref(), row, sensor, estimate, started });
+        }
+    }
+    lines.sort_by_key(|line| line.row.index);
+    match format {
+        Format::Csv => csv::write(out, model, tracks, &lines),
+        Format::Jsonl => jsonl::write(out, model, &lines),
+    }
+}

@@ -9,7 +9,7 @@
 mod turn;
 
 use givens_core::model::zoo::{CoordinatedTurn, RangeBearing};
-use givens_core::model::{At, Noise, Observation, Transition};
+use givens_core::model::{At, Observation, Transition};
 use givens_core::scalar::{Dual2, Real};
 use turn::Turn;
 

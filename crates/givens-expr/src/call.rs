@@ -2,7 +2,7 @@
 
 use core::ops::Range;
 
-use crate::error::ExprError;
+use crate::error::{ExprError, short};
 use crate::function::{Body, Function, function, functions};
 use crate::hints;
 use crate::lex::Token;
@@ -64,10 +64,10 @@ fn unknown(parser: &Parser<'_>, name: &str, span: Range<usize>) -> ExprError {
     if parser.scope.get(name).is_some() {
         return match parser.refuse_call(name, &span) {
             Err(error) => error,
-            Ok(()) => ExprError::new(span, format!("`{name}` is not a function")),
+            Ok(()) => ExprError::new(span, format!("`{}` is not a function", short(name))),
         };
     }
-    let error = ExprError::new(span, format!("unknown function `{name}`"));
+    let error = ExprError::new(span, format!("unknown function `{}`", short(name)));
     match (hints::function(name), suggest(name, functions())) {
         (Some(help), _) => error.help(help),
         (None, Some(near)) => error.help(format!("did you mean `{near}`?")),

@@ -24,6 +24,14 @@ impl ExprError {
     }
 }
 
+/// The text for a message: its beginning, if it is long.
+pub(crate) fn short(text: &str) -> String {
+    match text.char_indices().nth(60) {
+        Some((end, _)) => format!("{}…", &text[..end]),
+        None => text.to_owned(),
+    }
+}
+
 impl fmt::Display for ExprError {
     /// Message and help on one line; the span is for those who show the text.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -2,7 +2,7 @@
 
 use core::ops::Range;
 
-use crate::error::ExprError;
+use crate::error::{ExprError, short};
 use crate::hints;
 
 /// A piece of an expression.
@@ -80,7 +80,8 @@ impl<'t> Lexer<'t> {
         if !after.is_empty() {
             return Err(run_on(text, after, start..self.at));
         }
-        let error = |message: &str| Err(ExprError::new(start..self.at, format!("`{text}` {message}")));
+        let error =
+            |message: &str| Err(ExprError::new(start..self.at, format!("`{}` {message}", short(text))));
         match text.parse::<f64>() {
             Ok(value) if value.is_infinite() => {
                 error("is too large for a number").map_err(|e| e.help("the largest is about 1.8e308"))
@@ -121,13 +122,13 @@ impl<'t> Lexer<'t> {
 /// The error for a number that runs on into `after`.
 fn run_on(number: &str, after: &str, span: Range<usize>) -> ExprError {
     let whole = format!("{number}{after}");
-    let error = ExprError::new(span, format!("`{whole}` is neither a number nor a name"));
+    let error = ExprError::new(span, format!("`{}` is neither a number nor a name", short(&whole)));
     if after.starts_with('_') || after.starts_with('.') {
         error.help("a number has at most one point and no `_`")
     } else if matches!(after, "e" | "E") {
         error.help("the exponent has no digits")
     } else {
-        error.help(format!("write `{number}*{after}` to multiply"))
+        error.help(format!("write `{}*{}` to multiply", short(number), short(after)))
     }
 }
 

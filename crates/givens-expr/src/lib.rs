@@ -37,6 +37,7 @@ mod model;
 mod operation;
 mod parse;
 mod program;
+mod refuse;
 mod scope;
 mod simplify;
 mod suggest;

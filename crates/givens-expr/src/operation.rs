@@ -9,7 +9,7 @@ pub enum Unary {
     Neg,
     /// |a|. Its derivative at zero is taken from the right.
     Abs,
-    /// −1, 0 or 1. Its derivative is zero everywhere.
+    /// −1, 0 or 1; not-a-number of itself. Its derivative is zero everywhere.
     Sign,
     /// The largest whole number not above a. Its derivative is zero everywhere.
     Floor,
@@ -104,7 +104,7 @@ impl Unary {
         match self {
             Unary::Neg => -a,
             Unary::Abs => a.abs(),
-            Unary::Sign => a.sign(),
+            Unary::Sign => T::select(a.same(a), a.sign(), a),
             Unary::Floor => a.floor(),
             Unary::Sqrt => a.sqrt(),
             Unary::Exp => a.exp(),

@@ -4,7 +4,7 @@ use core::ops::Range;
 
 use crate::call::call;
 use crate::error::ExprError;
-use crate::graph::{Graph, MAX_NODES, Node};
+use crate::graph::{Graph, Node};
 use crate::lex::{Lexer, Token};
 use crate::operation::{Binary, Unary};
 use crate::scope::Scope;
@@ -17,7 +17,7 @@ const ANY: u8 = 0;
 const OR: u8 = 1;
 const AND: u8 = 2;
 const NOT: u8 = 3;
-const COMPARISON: u8 = 4;
+pub(crate) const COMPARISON: u8 = 4;
 const SUM: u8 = 5;
 const PRODUCT: u8 = 6;
 const NEGATION: u8 = 7;
@@ -91,7 +91,7 @@ pub(crate) struct Parser<'p> {
     depth: usize,
 }
 
-impl<'p> Parser<'p> {
+impl Parser<'_> {
     pub(crate) fn advance(&mut self) -> Result<(), ExprError> {
         self.last = self.span.end;
         (self.token, self.span) = self.lexer.next()?;
@@ -222,51 +222,6 @@ impl<'p> Parser<'p> {
         Ok(Term { node, span: left.span.start..right.span.end })
     }
 
-    /// An error unless `term` is a number.
-    pub(crate) fn number(&self, term: &Term, whose: &str) -> Result<(), ExprError> {
-        if !self.graph.is_condition(term.node) {
-            return Ok(());
-        }
-        let message = format!("{whose} takes numbers, but this is a condition");
-        Err(ExprError::new(term.span.clone(), message).help("make it a number by `where(condition, 1, 0)`"))
-    }
-
-    /// An error unless `term` is a condition.
-    pub(crate) fn condition(&self, term: &Term, whose: &str) -> Result<(), ExprError> {
-        if self.graph.is_condition(term.node) {
-            return Ok(());
-        }
-        let message = format!("{whose} takes a condition, but this is a number");
-        let text = self.shown(&term.span);
-        Err(ExprError::new(term.span.clone(), message).help(format!("compare it, as in `{text} > 0`")))
-    }
-
-    /// The text of a part, if it is short.
-    fn shown(&self, span: &Range<usize>) -> &'p str {
-        self.text.get(span.clone()).filter(|text| text.len() <= 40).unwrap_or("…")
-    }
-
-    /// `a < b < c` would compare a condition with a number.
-    fn refuse_chain(&self, sign: &str, right: &Term) -> Result<(), ExprError> {
-        match self.token {
-            Token::Sign(next) if binding(next) == Some(COMPARISON) => {
-                let middle = self.shown(&right.span);
-                let error = ExprError::new(self.span.clone(), "comparisons cannot be chained");
-                Err(error.help(format!("write `… {sign} {middle} and {middle} {next} …`")))
-            }
-            _ => Ok(()),
-        }
-    }
-
-    /// A name that is no function, before a parenthesis.
-    pub(crate) fn refuse_call(&self, name: &str, span: &Range<usize>) -> Result<(), ExprError> {
-        if self.token != Token::Sign("(") {
-            return Ok(());
-        }
-        let error = ExprError::new(span.clone(), format!("`{name}` is not a function"));
-        Err(error.help(format!("write `{name}*(…)` to multiply")))
-    }
-
     /// Reads the `)` that belongs to the `(` at `open`.
     pub(crate) fn close(&mut self, open: &Range<usize>, or: &str) -> Result<(), ExprError> {
         match self.token {
@@ -286,50 +241,9 @@ impl<'p> Parser<'p> {
             _ => Err(self.unexpected("an operator or the end")),
         }
     }
-
-    /// The error for a token that stands where `wanted` should.
-    fn unexpected(&self, wanted: &str) -> ExprError {
-        let found = self.text.get(self.span.clone()).unwrap_or_default();
-        let error = ExprError::new(self.span.clone(), format!("expected {wanted}, found `{found}`"));
-        match self.token {
-            Token::Name(name) => match crate::hints::name(name) {
-                Some(help) => error.help(help),
-                None => error.help("write `*` to multiply"),
-            },
-            Token::Number(_) => error.help("write `*` to multiply"),
-            Token::Sign("(") => error.help("write `*` before `(` to multiply"),
-            Token::Sign(",") => {
-                error.help("the decimal sign is a point; commas separate the arguments of a function")
-            }
-            _ => error,
-        }
-    }
-
-    fn missing_operand(&self) -> ExprError {
-        let found = self.text.get(self.span.clone()).unwrap_or_default();
-        match self.token {
-            Token::End => ExprError::new(
-                self.span.clone(),
-                "the expression ends where a number, a name or `(` should follow",
-            ),
-            _ => ExprError::new(
-                self.span.clone(),
-                format!("expected a number, a name or `(`, found `{found}`"),
-            ),
-        }
-    }
-
-    /// An error if the graph has no room for what was just built.
-    pub(crate) fn grown(&self, place: &Range<usize>) -> Result<(), ExprError> {
-        if !self.graph.is_full() {
-            return Ok(());
-        }
-        let message = format!("the expressions have more than {MAX_NODES} distinct operations");
-        Err(ExprError::new(place.clone(), message).help("shorten them"))
-    }
 }
 
-fn binding(sign: &str) -> Option<u8> {
+pub(crate) fn binding(sign: &str) -> Option<u8> {
     Some(match sign {
         "or" => OR,
         "and" => AND,

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use crate::error::ExprError;
+use crate::error::{ExprError, short};
 use crate::function::FUNCTIONS;
 use crate::graph::Node;
 use crate::hints;
@@ -72,14 +72,15 @@ impl Scope {
         match self.meanings.get(name) {
             Some(Meaning::Is(node)) => Ok(*node),
             Some(Meaning::Forbidden(why)) => {
-                Err(ExprError::new(0..name.len(), format!("`{name}` may not stand here")).help(why.as_str()))
+                let message = format!("`{}` may not stand here", short(name));
+                Err(ExprError::new(0..name.len(), message).help(why.as_str()))
             }
             None => Err(self.unknown(name)),
         }
     }
 
     fn unknown(&self, name: &str) -> ExprError {
-        let error = ExprError::new(0..name.len(), format!("unknown name `{name}`"));
+        let error = ExprError::new(0..name.len(), format!("unknown name `{}`", short(name)));
         if let Some(function) = FUNCTIONS.iter().find(|function| function.name == name) {
             let message = format!("`{name}` is a function and needs its arguments");
             return ExprError::new(0..name.len(), message).help(format!("write `{}`", function.signature));
@@ -87,14 +88,15 @@ impl Scope {
         if let Some(help) = hints::name(name) {
             return error.help(help);
         }
-        match suggest(name, self.names().chain(["pi"])) {
-            Some(near) => error.help(format!("did you mean `{near}`?")),
-            None if self.names.is_empty() => error.help("only numbers, `pi` and functions may stand here"),
-            None if self.names.len() <= 12 => {
-                let known: Vec<String> = self.names().map(|name| format!("`{name}`")).collect();
-                error.help(format!("known are {}", known.join(", ")))
-            }
-            None => error,
+        if let Some(near) = suggest(name, self.names().chain(["pi"])) {
+            return error.help(format!("did you mean `{near}`?"));
+        }
+        let allowed = self.names().filter(|name| matches!(self.get(name), Some(Meaning::Is(_))));
+        let allowed: Vec<String> = allowed.map(|name| format!("`{name}`")).collect();
+        match allowed.len() {
+            0 => error.help("only numbers, `pi` and functions may stand here"),
+            1..=12 => error.help(format!("known here: {}", allowed.join(", "))),
+            _ => error,
         }
     }
 }

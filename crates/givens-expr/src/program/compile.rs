@@ -5,6 +5,7 @@ use std::collections::{HashMap, HashSet};
 use crate::graph::{Graph, GraphError, Input, Node, Op};
 use crate::operation::{Binary, Unary};
 
+use super::fuse::fuse;
 use super::lifetime::{Rows, Step};
 use super::{Code, Extent, Given, Place, Program};
 
@@ -18,6 +19,7 @@ impl Program {
         let order = graph.reachable(outputs);
         let (extent, moving) = survey(graph, &order);
         let (row_steps, scalar_steps) = steps(graph, &order, &moving);
+        let row_steps = fuse(row_steps, &outputs.iter().copied().collect(), &moving);
 
         let read: HashSet<Node> =
             row_steps.iter().chain(&scalar_steps).flat_map(|step| step.args.iter().copied()).collect();

@@ -4,6 +4,7 @@
 //! runs on rows of `points` values, one dispatch for each operation and row.
 
 mod compile;
+mod fuse;
 mod lifetime;
 mod run;
 
@@ -31,8 +32,21 @@ enum Code {
     Binary(Binary),
     Power(i32),
     Select,
+    /// a b + c, a b − c or c − a b: fused where the machine does that in one instruction.
+    Product(Sum),
     /// Sine and cosine of one angle: two results.
     SinCos,
+}
+
+/// How a product is added.
+#[derive(Clone, Copy, Debug)]
+enum Sum {
+    /// a b + c
+    Plus,
+    /// a b − c
+    Minus,
+    /// c − a b
+    From,
 }
 
 /// One operation: operands and results beyond those that the code has are not read.

@@ -1,5 +1,6 @@
 //! The machine that runs a program.
 
+use core::array::from_fn;
 use core::cell::Cell;
 
 use givens_core::scalar::Real;
@@ -7,7 +8,7 @@ use givens_core::scalar::Real;
 use crate::graph::Input;
 use crate::operation::{Binary, Unary, choose};
 
-use super::{Code, Given, Inputs, Instruction, Place, Program};
+use super::{Code, Given, Inputs, Instruction, Place, Program, Sum};
 
 impl Program {
     /// Evaluates all expressions at `points` points: `inputs.x` is n × `points` and `out` outputs × `points`,
@@ -84,7 +85,7 @@ struct Machine<'m, T> {
     width: usize,
 }
 
-/// An operand.
+/// An operand of an instruction.
 enum Source<'m, T> {
     Row(&'m [Cell<T>]),
     Same(T),
@@ -106,7 +107,8 @@ impl<'m, T: Real> Machine<'m, T> {
             match instruction.code {
                 Code::Unary(op) => self.unary(op, instruction),
                 Code::Binary(op) => self.binary(op, instruction),
-                Code::Power(e) => self.map(instruction, |a| a.powi(e)),
+                Code::Product(sum) => self.product(sum, instruction),
+                Code::Power(e) => self.power(e, instruction),
                 Code::Select => self.select(instruction),
                 Code::SinCos => self.sin_cos(instruction),
             }
@@ -115,56 +117,65 @@ impl<'m, T: Real> Machine<'m, T> {
 
     #[inline(always)]
     fn row(&self, place: Place) -> &'m [Cell<T>] {
-        match place {
-            Place::Output(i) => &self.out[i as usize * self.width..][..self.width],
-            Place::Register(i) | Place::Scalar(i) => &self.rows[i as usize * self.width..][..self.width],
-        }
+        let (rows, i) = match place {
+            Place::Output(i) => (self.out, i),
+            Place::Register(i) | Place::Scalar(i) => (self.rows, i),
+        };
+        &rows[i as usize * self.width..][..self.width]
     }
 
     #[inline(always)]
     fn source(&self, place: Place) -> Source<'m, T> {
         match place {
             Place::Scalar(i) => Source::Same(self.scalars[i as usize].get()),
-            row => Source::Row(self.row(row)),
+            Place::Register(_) | Place::Output(_) => Source::Row(self.row(place)),
         }
     }
 
     #[inline(always)]
     fn map(&self, instruction: &Instruction, f: impl Fn(T) -> T) {
-        let (result, a) = (self.row(instruction.results[0]), self.row(instruction.args[0]));
-        for (result, a) in result.iter().zip(a) {
-            result.set(f(a.get()));
-        }
+        map(self.row(instruction.results[0]), self.row(instruction.args[0]), f);
     }
 
     #[inline(always)]
     fn zip(&self, instruction: &Instruction, f: impl Fn(T, T) -> T) {
         let result = self.row(instruction.results[0]);
         match (self.source(instruction.args[0]), self.source(instruction.args[1])) {
-            (Source::Row(a), Source::Row(b)) => {
-                for ((result, a), b) in result.iter().zip(a).zip(b) {
-                    result.set(f(a.get(), b.get()));
-                }
-            }
-            (Source::Row(a), Source::Same(b)) => {
-                for (result, a) in result.iter().zip(a) {
-                    result.set(f(a.get(), b));
-                }
-            }
-            (Source::Same(a), Source::Row(b)) => {
-                for (result, b) in result.iter().zip(b) {
-                    result.set(f(a, b.get()));
-                }
-            }
-            (Source::Same(a), Source::Same(b)) => {
-                let value = f(a, b);
-                for result in result {
-                    result.set(value);
-                }
-            }
+            (Source::Row(a), Source::Row(b)) => zip(result, a, b, f),
+            (Source::Row(a), Source::Same(b)) => map(result, a, |a| f(a, b)),
+            (Source::Same(a), Source::Row(b)) => map(result, b, |b| f(a, b)),
+            (Source::Same(a), Source::Same(b)) => map(result, result, |_| f(a, b)),
         }
     }
 
+    /// The first operand may be the same for all points, the second never is.
+    #[inline(always)]
+    fn zip3(&self, instruction: &Instruction, f: impl Fn(T, T, T) -> T) {
+        let [a, b, c] = instruction.args;
+        let (result, b) = (self.row(instruction.results[0]), self.row(b));
+        match (self.source(a), self.source(c)) {
+            (Source::Row(a), Source::Row(c)) => zip3(result, a, b, c, f),
+            (Source::Row(a), Source::Same(c)) => zip(result, a, b, |a, b| f(a, b, c)),
+            (Source::Same(a), Source::Row(c)) => zip(result, b, c, |b, c| f(a, b, c)),
+            (Source::Same(a), Source::Same(c)) => map(result, b, |b| f(a, b, c)),
+        }
+    }
+
+    #[inline(never)]
+    fn product(&self, sum: Sum, instruction: &Instruction) {
+        match sum {
+            Sum::Plus => self.zip3(instruction, T::mul_add),
+            Sum::Minus => self.zip3(instruction, |a, b, c| a.mul_add(b, -c)),
+            Sum::From => self.zip3(instruction, |a, b, c| (-a).mul_add(b, c)),
+        }
+    }
+
+    #[inline(never)]
+    fn power(&self, e: i32, instruction: &Instruction) {
+        self.map(instruction, |a| a.powi(e));
+    }
+
+    #[inline(never)]
     fn select(&self, instruction: &Instruction) {
         let [c, a, b] = instruction.args.map(|place| self.source(place));
         for (i, result) in self.row(instruction.results[0]).iter().enumerate() {
@@ -172,6 +183,7 @@ impl<'m, T: Real> Machine<'m, T> {
         }
     }
 
+    #[inline(never)]
     fn sin_cos(&self, instruction: &Instruction) {
         let a = self.row(instruction.args[0]);
         let [sine, cosine] = instruction.results.map(|place| self.row(place));
@@ -183,6 +195,7 @@ impl<'m, T: Real> Machine<'m, T> {
     }
 
     /// One loop for each operation, so that the operation is not chosen again for each point.
+    #[inline(never)]
     fn unary(&self, op: Unary, instruction: &Instruction) {
         macro_rules! loops {
             ($($op:ident)*) => { match op { $(Unary::$op => self.map(instruction, |a| Unary::$op.apply(a)),)* } };
@@ -190,10 +203,59 @@ impl<'m, T: Real> Machine<'m, T> {
         loops!(Neg Abs Sign Floor Sqrt Exp Log Log10 Sin Cos Tan Asin Acos Atan Sinh Cosh Tanh Not);
     }
 
+    #[inline(never)]
     fn binary(&self, op: Binary, instruction: &Instruction) {
         macro_rules! loops {
             ($($op:ident)*) => { match op { $(Binary::$op => self.zip(instruction, |a, b| Binary::$op.apply(a, b)),)* } };
         }
         loops!(Add Sub Mul Div Pow Atan2 Hypot Min Max Less LessEqual Equal And Or Scale);
+    }
+}
+
+/// Points that are worked out side by side: all of a block is read before it is written, so that nothing hinders
+/// the machine from doing so, even where a row is operand and result.
+const BLOCK: usize = 4;
+
+#[inline(always)]
+fn map<T: Real>(result: &[Cell<T>], a: &[Cell<T>], f: impl Fn(T) -> T) {
+    let (blocks, rest) = result.as_chunks::<BLOCK>();
+    let (a, a_rest) = a.as_chunks::<BLOCK>();
+    for (block, a) in blocks.iter().zip(a) {
+        write(block, from_fn(|k| f(a[k].get())));
+    }
+    for (result, a) in rest.iter().zip(a_rest) {
+        result.set(f(a.get()));
+    }
+}
+
+#[inline(always)]
+fn zip<T: Real>(result: &[Cell<T>], a: &[Cell<T>], b: &[Cell<T>], f: impl Fn(T, T) -> T) {
+    let (blocks, rest) = result.as_chunks::<BLOCK>();
+    let ((a, a_rest), (b, b_rest)) = (a.as_chunks::<BLOCK>(), b.as_chunks::<BLOCK>());
+    for ((block, a), b) in blocks.iter().zip(a).zip(b) {
+        write(block, from_fn(|k| f(a[k].get(), b[k].get())));
+    }
+    for ((result, a), b) in rest.iter().zip(a_rest).zip(b_rest) {
+        result.set(f(a.get(), b.get()));
+    }
+}
+
+#[inline(always)]
+fn zip3<T: Real>(result: &[Cell<T>], a: &[Cell<T>], b: &[Cell<T>], c: &[Cell<T>], f: impl Fn(T, T, T) -> T) {
+    let (blocks, rest) = result.as_chunks::<BLOCK>();
+    let ((a, a_rest), (b, b_rest)) = (a.as_chunks::<BLOCK>(), b.as_chunks::<BLOCK>());
+    let (c, c_rest) = c.as_chunks::<BLOCK>();
+    for (((block, a), b), c) in blocks.iter().zip(a).zip(b).zip(c) {
+        write(block, from_fn(|k| f(a[k].get(), b[k].get(), c[k].get())));
+    }
+    for (((result, a), b), c) in rest.iter().zip(a_rest).zip(b_rest).zip(c_rest) {
+        result.set(f(a.get(), b.get(), c.get()));
+    }
+}
+
+#[inline(always)]
+fn write<T: Real>(block: &[Cell<T>; BLOCK], values: [T; BLOCK]) {
+    for (cell, value) in block.iter().zip(values) {
+        cell.set(value);
     }
 }

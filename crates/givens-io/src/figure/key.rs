@@ -71,7 +71,7 @@ pub(super) fn draw(row: &[(f64, &Mark, String)], at: Point, items: &mut Vec<Item
         let anchor = Anchor::Start;
         items.push(Item::Text(Text {
             at,
-            text: text.clone(),
+            line: text.clone(),
             size: SIZE,
             weight,
             colour,

@@ -9,6 +9,9 @@
 #[cfg(feature = "alloc")]
 extern crate alloc;
 
+pub mod filter;
 pub mod kernels;
 pub mod model;
+pub mod rule;
 pub mod scalar;
+pub mod smoother;

@@ -1,3 +1,15 @@
-//! Placeholder while the workspace is laid.
+//! What goes in and comes out of files: model files and tables.
+//!
+//! [`Model::read`] reads a model file, [`read_tracks`] the measurements for it; both tell all that is wrong with
+//! their input at once, each error with its place and the remedy ([`InputErrors`]).
 
+mod error;
 pub mod figure;
+mod findings;
+mod model_file;
+mod source;
+mod table;
+
+pub use error::{InputError, InputErrors, Location, Place};
+pub use model_file::{FilterSettings, Model, Prior, Sensor, Setting, SettingValue, Start};
+pub use table::{Calendar, Row, Track, Tracks, Truth, parse_tracks, read_times, read_tracks, read_truth};

@@ -1,1 +1,35 @@
-//! Placeholder while the workspace is laid.
+//! Nonlinear Gaussian state estimation: cubature, unscented, Gauss–Hermite, central-difference and Taylor filters and
+//! smoothers, in covariance and in square-root form.
+//!
+//! The mathematics is [`givens_core`], re-exported here; this crate adds whole trajectories: [`filter()`] and
+//! [`smooth()`] over [`Data`], their [`Estimates`], [`simulate`](mod@simulate), [`metrics`], and the [`registry`] of all
+//! methods by name.
+//!
+//! ```
+//! use givens::filter::{Gaussian, SrCkf};
+//! use givens::model::zoo::{CoordinatedTurn, RangeBearing};
+//! use givens::Data;
+//!
+//! let mut data = Data::new(2);
+//! data.push(1.0, &[1640.0, 0.65])?;
+//! data.push(2.0, &[1890.0, f64::NAN])?; // the bearing is missing
+//! let prior = Gaussian::from_std(&[1000.0, 300.0, 1000.0, 0.0, -0.05], &[10.0, 3.2, 10.0, 3.2, 0.01])?;
+//! let (turn, radar) = (CoordinatedTurn::default(), RangeBearing::published());
+//! let est = givens::smooth(&SrCkf::default(), &turn, &radar, &data, 0.0, &prior)?;
+//! assert_eq!(est.len(), 2);
+//! assert!(est.cov(0)[0] <= est.filtered_cov(0)[0]);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+pub use givens_core::{filter, kernels, model, rule, scalar, smoother};
+
+mod data;
+mod estimates;
+pub mod metrics;
+pub mod registry;
+mod run;
+pub mod simulate;
+
+pub use data::{Data, DataError, Row};
+pub use estimates::Estimates;
+pub use run::{Failure, Goal, Outcome, filter, run, smooth};

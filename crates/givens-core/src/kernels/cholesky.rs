@@ -19,21 +19,21 @@ use crate::scalar::{Mask, Real};
 /// ```
 #[inline(always)]
 pub fn cholesky<T: Real>(a: &mut [T], n: usize) -> Health<T> {
-    factorise(a, n, |_, own| own)
+    factorise(a, n, 64.0, |_, own| own)
 }
 
-/// [`cholesky`] of a difference of matrices: a pivot is zero within 64 n ε of `scale`, the diagonal before the
-/// subtraction (length n), since that is the size of its rounding.
+/// [`cholesky`] of a computed difference of matrices: a pivot is zero within 8 n ε of `scale`, the diagonal before
+/// the subtraction (length n), since that is the size of its rounding.
 #[inline(always)]
 pub fn cholesky_scaled<T: Real>(a: &mut [T], n: usize, scale: &[T]) -> Health<T> {
-    factorise(a, n, |i, own| T::select(scale[i].lt(own), own, scale[i]))
+    factorise(a, n, 8.0, |i, own| T::select(scale[i].lt(own), own, scale[i]))
 }
 
 #[inline(always)]
-fn factorise<T: Real>(a: &mut [T], n: usize, scale: impl Fn(usize, T) -> T) -> Health<T> {
+fn factorise<T: Real>(a: &mut [T], n: usize, rounding: f64, scale: impl Fn(usize, T) -> T) -> Health<T> {
     let mut health = Health::<T>::good();
     let zero = T::zero();
-    let tolerance = T::of(64.0 * n as f64 * T::EPSILON);
+    let tolerance = T::of(rounding * n as f64 * T::EPSILON);
     for j in 0..n {
         let own = a[j * n + j];
         let rounding = tolerance * scale(j, own);

@@ -3,13 +3,20 @@
 use super::{At, Observation, Transition};
 use crate::scalar::{Dual2, Real, as_duals};
 
-/// A map that a rule pushes a Gaussian through.
-pub(crate) trait Map {
-    /// Length of the result.
+/// A map that a rule pushes a Gaussian through: a transition or a sensor, seen alike.
+pub trait Map {
+    /// Length d of the result.
     fn outputs(&self) -> usize;
     /// The period of component `i`, if it is an angle.
-    fn angle(&self, i: usize) -> Option<f64>;
+    fn angle(&self, i: usize) -> Option<f64> {
+        let _ = i;
+        None
+    }
+    /// Scalars of scratch that the two methods below need for `points` points.
+    fn scratch(&self, points: usize) -> usize;
+    /// All points at once: `x` is n × `points` and `out` d × `points`, component by component.
     fn points<T: Real>(&self, at: &At<T>, points: usize, x: &[T], out: &mut [T], scratch: &mut [T]);
+    /// g(x) to `value` and J S to the first n columns of `out`, in rows of length `stride`.
     fn linear<T: Real>(
         &self,
         at: &At<T>,
@@ -23,14 +30,15 @@ pub(crate) trait Map {
 }
 
 /// The transition of a model, as a map.
-pub(crate) struct Moving<'a, M>(pub &'a M);
+#[derive(Clone, Copy, Debug)]
+pub struct Moving<'a, M>(pub &'a M);
 
 impl<M: Transition> Map for Moving<'_, M> {
     fn outputs(&self) -> usize {
         self.0.states()
     }
-    fn angle(&self, _: usize) -> Option<f64> {
-        None
+    fn scratch(&self, points: usize) -> usize {
+        self.0.transition_scratch(points)
     }
     #[inline(always)]
     fn points<T: Real>(&self, at: &At<T>, points: usize, x: &[T], out: &mut [T], scratch: &mut [T]) {
@@ -52,7 +60,8 @@ impl<M: Transition> Map for Moving<'_, M> {
 }
 
 /// The measures of a sensor, as a map.
-pub(crate) struct Sensed<'a, H>(pub &'a H);
+#[derive(Clone, Copy, Debug)]
+pub struct Sensed<'a, H>(pub &'a H);
 
 impl<H: Observation> Map for Sensed<'_, H> {
     fn outputs(&self) -> usize {
@@ -60,6 +69,9 @@ impl<H: Observation> Map for Sensed<'_, H> {
     }
     fn angle(&self, i: usize) -> Option<f64> {
         self.0.angle(i)
+    }
+    fn scratch(&self, points: usize) -> usize {
+        self.0.observe_scratch(points)
     }
     #[inline(always)]
     fn points<T: Real>(&self, at: &At<T>, points: usize, x: &[T], out: &mut [T], scratch: &mut [T]) {

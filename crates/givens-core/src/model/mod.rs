@@ -6,8 +6,7 @@ mod stack;
 mod transition;
 pub mod zoo;
 
-pub(crate) use map::{Map, Moving, Sensed};
-pub use map::{linear_by_duals, linear_scratch, points_one_by_one, points_scratch};
+pub use map::{Map, Moving, Sensed, linear_by_duals, linear_scratch, points_one_by_one, points_scratch};
 pub use observation::Observation;
 pub use transition::Transition;
 

@@ -1,0 +1,171 @@
+//! What can go wrong in a step: data, not words.
+
+use crate::rule::RuleError;
+use core::fmt;
+
+/// A symmetric matrix that a step needs a root of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Matrix {
+    /// The covariance of the initial belief.
+    Prior,
+    /// Q, the covariance of the process noise.
+    ProcessNoise,
+    /// R, the covariance of the measurement noise.
+    MeasurementNoise,
+    /// P⁻, the covariance of the predicted state.
+    Predicted,
+    /// P_zz, the covariance of the innovation.
+    Innovation,
+    /// P, the covariance of the filtered state.
+    Posterior,
+    /// The covariance of a state given the next one, that a square-root smoother needs.
+    Conditional,
+    /// Pˢ, the covariance of the smoothed state.
+    Smoothed,
+}
+
+impl Matrix {
+    /// Its name in a message.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Matrix::Prior => "initial covariance",
+            Matrix::ProcessNoise => "process noise covariance",
+            Matrix::MeasurementNoise => "measurement noise covariance",
+            Matrix::Predicted => "predicted covariance",
+            Matrix::Innovation => "innovation covariance",
+            Matrix::Posterior => "posterior covariance",
+            Matrix::Conditional => "covariance of a state given the next one",
+            Matrix::Smoothed => "smoothed covariance",
+        }
+    }
+}
+
+/// A quantity that a model computes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    /// The transition of a state.
+    Transition,
+    /// The value of a measure.
+    Observation,
+    /// The process noise.
+    ProcessNoise,
+    /// The measurement noise.
+    MeasurementNoise,
+    /// A measurement given to the filter.
+    Measurement,
+    /// A state estimate.
+    Estimate,
+    /// A control given to the filter.
+    Control,
+    /// A parameter given to the filter.
+    Parameter,
+}
+
+impl Quantity {
+    /// Its name in a message.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Quantity::Transition => "transition",
+            Quantity::Observation => "predicted measure",
+            Quantity::ProcessNoise => "process noise",
+            Quantity::MeasurementNoise => "measurement noise",
+            Quantity::Measurement => "measurement",
+            Quantity::Estimate => "state estimate",
+            Quantity::Control => "control",
+            Quantity::Parameter => "parameter",
+        }
+    }
+}
+
+/// The kind of a failure, with the place inside the step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Fault {
+    /// A covariance is not positive semidefinite (or not definite, where it is divided by).
+    NotPositive {
+        /// Which.
+        matrix: Matrix,
+        /// The first pivot at which its factorisation fails, from zero.
+        pivot: usize,
+    },
+    /// A component of the innovation has no variance: it is known exactly from the components before it.
+    SingularInnovation {
+        /// Which, from zero, in the whole measurement.
+        measure: usize,
+    },
+    /// A model gave, or a filter was given, a number that is not finite.
+    NotFinite {
+        /// What.
+        quantity: Quantity,
+        /// Which component, from zero.
+        component: usize,
+    },
+    /// A prediction into the past.
+    Backwards {
+        /// The time asked for.
+        to: f64,
+    },
+    /// A gap that is not a whole number of the model's steps.
+    NotWholeSteps {
+        /// Length of the gap.
+        gap: f64,
+        /// The model's step.
+        period: f64,
+    },
+    /// A slice of the wrong length.
+    Length {
+        /// Of what.
+        of: &'static str,
+        /// The length it must have.
+        expected: usize,
+        /// The length it has.
+        found: usize,
+    },
+    /// An option out of its range.
+    Option(RuleError),
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Fault::NotPositive { matrix, pivot } => {
+                write!(f, "the {} is not positive definite (pivot {})", matrix.name(), pivot + 1)
+            }
+            Fault::SingularInnovation { measure } => write!(
+                f,
+                "the innovation covariance is singular (component {} has no variance of its own); give it measurement \
+                 noise",
+                measure + 1
+            ),
+            Fault::NotFinite { quantity, component } => {
+                write!(f, "component {} of the {} is not a finite number", component + 1, quantity.name())
+            }
+            Fault::Backwards { to } => write!(f, "cannot predict back to t = {to}"),
+            Fault::NotWholeSteps { gap, period } => {
+                write!(f, "a gap of {gap} is not a whole number of steps of {period}")
+            }
+            Fault::Length { of, expected, found } => write!(f, "{of}: expected length {expected}, found {found}"),
+            Fault::Option(error) => error.fmt(f),
+        }
+    }
+}
+
+/// A failed step: what, when, and the how-manieth.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StepError {
+    /// What went wrong.
+    pub fault: Fault,
+    /// The time the filter had reached, or was to reach by the failing prediction.
+    pub time: f64,
+    /// How many predictions and updates had been done before.
+    pub step: usize,
+}
+
+impl fmt::Display for StepError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "step {}, t = {}: {}", self.step, self.time, self.fault)
+    }
+}
+
+impl core::error::Error for StepError {}

@@ -1,0 +1,34 @@
+//! The two forms of a filter: the covariance itself, or a root of it.
+
+/// The form in which a filter carries its covariance.
+pub trait Form: Copy + Default {
+    /// Square-root form: the factor is computed by triangularisation and the covariance never formed.
+    const SQUARE_ROOT: bool;
+}
+
+/// Covariance form: P is computed, and factorised where points are drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Covariance;
+
+impl Form for Covariance {
+    const SQUARE_ROOT: bool = false;
+}
+
+/// Square-root form: S with P = S Sᵀ.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct SquareRoot;
+
+impl Form for SquareRoot {
+    const SQUARE_ROOT: bool = true;
+}
+
+/// N(mean, P) in borrowed memory.
+#[derive(Debug)]
+pub struct Belief<'a, T> {
+    /// Length n.
+    pub mean: &'a mut [T],
+    /// S with P = S Sᵀ, lower triangular n × n, diagonal ≥ 0.
+    pub factor: &'a mut [T],
+    /// P itself, n × n, in covariance form; empty in square-root form.
+    pub cov: &'a mut [T],
+}

@@ -1,0 +1,20 @@
+//! Carving a caller's slice into the arrays of a step.
+
+/// The next `len` scalars of `memory`.
+#[inline(always)]
+pub(crate) fn take<'a, T>(memory: &mut &'a mut [T], len: usize) -> &'a mut [T] {
+    let (head, tail) = core::mem::take(memory).split_at_mut(len);
+    *memory = tail;
+    head
+}
+
+/// Writes `block` (rows of length `width`) into columns `at`… of `to` (rows of length `stride`).
+#[inline(always)]
+pub(crate) fn put_columns<T: Copy>(to: &mut [T], stride: usize, at: usize, block: &[T], width: usize) {
+    if width == 0 {
+        return;
+    }
+    for (row, from) in to.chunks_exact_mut(stride).zip(block.chunks_exact(width)) {
+        row[at..at + width].copy_from_slice(from);
+    }
+}

@@ -1,0 +1,122 @@
+//! The methods by name: a type for each, its registry name in camel case, its options as fields.
+
+use super::form::{Covariance, Form, SquareRoot};
+use super::update::Block;
+#[cfg(feature = "alloc")]
+use super::{Fault, Filter, Gaussian, Prior, Sizes, StepError};
+#[cfg(feature = "alloc")]
+use crate::model::Transition;
+use crate::rule::{CentralDifference, Cubature3, Cubature5, GaussHermite, Rule, Taylor, Unscented};
+
+/// A discrete-time filter as its parts: a rule, a form and a measurement update.
+pub trait Method: Copy {
+    /// How expectations are computed.
+    type Rule: Rule;
+    /// Covariance or square root.
+    type Form: Form;
+    /// The rule with the options chosen.
+    fn rule(&self) -> Self::Rule;
+    /// The block of the measurement update; covariance form has only one.
+    fn block(&self) -> Block {
+        Block::Joint
+    }
+
+    /// Starts the filter from `prior`, the belief at time `t0`, in memory of its own, in `f64`.
+    ///
+    /// # Errors
+    /// An option out of its range, or a prior of another length than the model's state.
+    #[cfg(feature = "alloc")]
+    fn start<'m, M: Transition>(
+        &self,
+        model: &'m M,
+        t0: f64,
+        prior: &Gaussian,
+    ) -> Result<Filter<'m, Self, M, f64, alloc::vec::Vec<f64>>, StepError> {
+        let n = model.states();
+        self.rule().check(n).map_err(|error| StepError { fault: Fault::Option(error), time: t0, step: 0 })?;
+        let sizes = Sizes::of_model(model, self.rule().shape(n));
+        let memory = alloc::vec![0.0; Filter::<Self, M, f64, alloc::vec::Vec<f64>>::memory_len(self, sizes, false)];
+        let prior = Prior { time: t0, mean: prior.mean(), factor: prior.factor(), cov: prior.cov() };
+        Filter::start_in(*self, model, sizes, false, prior, memory)
+    }
+}
+
+macro_rules! methods {
+    ($($(#[$doc:meta])* $cov:ident, $(#[$sr_doc:meta])* $sr:ident: $rule:ident { $($field:ident: $type:ty = $default:expr, $about:literal);* };)*) => {$(
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub struct $cov {
+            $(#[doc = $about] pub $field: $type,)*
+        }
+
+        impl Default for $cov {
+            fn default() -> Self {
+                Self { $($field: $default,)* }
+            }
+        }
+
+        impl Method for $cov {
+            type Rule = $rule;
+            type Form = Covariance;
+            fn rule(&self) -> $rule {
+                $rule { $($field: self.$field,)* }
+            }
+        }
+
+        $(#[$sr_doc])*
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub struct $sr {
+            $(#[doc = $about] pub $field: $type,)*
+            /// The block that a measurement update triangularises.
+            pub update: Block,
+        }
+
+        impl Default for $sr {
+            fn default() -> Self {
+                Self { $($field: $default,)* update: Block::Joint }
+            }
+        }
+
+        impl Method for $sr {
+            type Rule = $rule;
+            type Form = SquareRoot;
+            fn rule(&self) -> $rule {
+                $rule { $($field: self.$field,)* }
+            }
+            fn block(&self) -> Block {
+                self.update
+            }
+        }
+    )*};
+}
+
+methods! {
+    /// `ckf`: the cubature Kalman filter (2009).
+    Ckf,
+    /// `sr-ckf`: the square-root cubature Kalman filter (2009 Appendix B; 2010 eq 36).
+    SrCkf: Cubature3 {};
+    /// `ckf5`: the fifth-degree cubature Kalman filter (Jia, Xin & Cheng 2013).
+    Ckf5,
+    /// `sr-ckf5`: the fifth-degree cubature Kalman filter in square-root form.
+    SrCkf5: Cubature5 {};
+    /// `ukf`: the unscented Kalman filter (Julier & Uhlmann 1997).
+    Ukf,
+    /// `sr-ukf`: the square-root unscented Kalman filter (van der Merwe & Wan 2001).
+    SrUkf: Unscented {
+        alpha: f64 = 1.0, "Spread of the points about the mean.";
+        beta: f64 = 0.0, "Added to the centre's weight in the covariance.";
+        kappa: Option<f64> = None, "The plain transform's κ; 3 − n if `None`."
+    };
+    /// `qkf`: the quadrature (Gauss–Hermite) Kalman filter (Arasaratnam, Haykin & Elliott 2007).
+    Qkf,
+    /// `sr-qkf`: the quadrature Kalman filter in square-root form.
+    SrQkf: GaussHermite { points: usize = 3, "Points per axis." };
+    /// `cdkf`: the central-difference Kalman filter (Nørgaard, Poulsen & Ravn 2000).
+    Cdkf,
+    /// `sr-cdkf`: the central-difference Kalman filter in square-root form.
+    SrCdkf: CentralDifference { eta: f64 = 1.732_050_807_568_877_2, "The step, in standard deviations." };
+    /// `ekf`: the extended Kalman filter with exact derivatives.
+    Ekf,
+    /// `sr-ekf`: the extended Kalman filter in square-root form.
+    SrEkf: Taylor {};
+}

@@ -1,0 +1,26 @@
+//! Filters: a rule, a time update and a measurement update, stepped through time.
+
+mod error;
+mod form;
+mod gaussian;
+pub(crate) mod memory;
+mod methods;
+pub mod predict;
+mod start;
+mod stepper;
+mod steps;
+pub mod update;
+
+pub use error::{Fault, Matrix, Quantity, StepError};
+pub use form::{Belief, Covariance, Form, SquareRoot};
+#[cfg(feature = "alloc")]
+pub use gaussian::Gaussian;
+pub use gaussian::{InvalidCovariance, factor_of_covariance};
+pub use methods::{
+    Cdkf, Ckf, Ckf5, Ekf, Method, Qkf, SrCdkf, SrCkf, SrCkf5, SrEkf, SrQkf, SrUkf, Ukf,
+};
+pub use predict::Backward;
+pub use start::Sizes;
+pub use stepper::{Filter, Prior};
+pub use steps::Grow;
+pub use update::{Block, Innovation};

@@ -1,0 +1,104 @@
+//! The memory of a filter, of a length known before it starts.
+
+use super::predict::{accumulate_scratch, predict_scratch};
+use super::update::update_scratch;
+use crate::model::{Observation, Transition, linear_scratch, points_scratch};
+use crate::rule::Shape;
+
+/// The sizes of a model and its sensors, as far as a filter's memory depends on them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Sizes {
+    /// Length n of the state.
+    pub states: usize,
+    /// Columns of the root of Q.
+    pub process_noise: usize,
+    /// Length d of the longest measurement.
+    pub measures: usize,
+    /// Columns of the root of R of that measurement.
+    pub measurement_noise: usize,
+    /// Controls.
+    pub controls: usize,
+    /// Parameters.
+    pub parameters: usize,
+    /// Scratch of the model's own, for all points of the rule.
+    pub model: usize,
+}
+
+impl Sizes {
+    /// The sizes of a model whose noises have as many columns as rows and which overrides no provided method.
+    #[must_use]
+    pub const fn new(states: usize, measures: usize) -> Self {
+        let longer = if states > measures { states } else { measures };
+        let (one, linear) = (points_scratch(states, longer), linear_scratch(states, longer, 0));
+        Self {
+            states,
+            process_noise: states,
+            measures,
+            measurement_noise: measures,
+            controls: 0,
+            parameters: 0,
+            model: if one > linear { one } else { linear },
+        }
+    }
+
+    /// The sizes of a model alone, for a rule of that shape.
+    pub fn of_model<M: Transition>(model: &M, shape: Shape) -> Self {
+        let n = model.states();
+        Self {
+            states: n,
+            process_noise: model.noise().columns(n),
+            measures: 0,
+            measurement_noise: 0,
+            controls: model.controls(),
+            parameters: model.parameters().len(),
+            model: model.transition_scratch(shape.points),
+        }
+    }
+
+    /// Room for this sensor too.
+    #[must_use]
+    pub fn with_sensor<H: Observation>(self, sensor: &H, shape: Shape) -> Self {
+        let d = sensor.measures();
+        Self {
+            measures: self.measures.max(d),
+            measurement_noise: self.measurement_noise.max(sensor.noise().columns(d)),
+            model: self.model.max(sensor.observe_scratch(shape.points)),
+            ..self
+        }
+    }
+
+    /// Whether all of `other` fits into these.
+    #[must_use]
+    pub fn hold(&self, other: &Sizes) -> bool {
+        self.measures >= other.measures
+            && self.measurement_noise >= other.measurement_noise
+            && self.model >= other.model
+    }
+}
+
+/// Where the arrays of a filter stand in its memory.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Layout {
+    pub sizes: Sizes,
+    pub shape: Shape,
+    /// Whether predictions leave what a smoother needs.
+    pub smoothing: bool,
+    /// All of the filter's scalars.
+    pub len: usize,
+}
+
+impl Layout {
+    pub const fn new(sizes: Sizes, shape: Shape, smoothing: bool) -> Self {
+        let Sizes { states: n, process_noise: q, measures: d, measurement_noise: r, .. } = sizes;
+        // mean, factor and covariance; innovation (measured, predicted, ν, factor, white, NIS, log-likelihood); gain and
+        // conditional root, twice where a gap of several steps is chained
+        let belief = n + 2 * n * n;
+        let innovation = 4 * d + d * d + 2;
+        let back = if smoothing { 4 * n * n } else { 0 };
+        let kept = shape.table + sizes.controls + sizes.parameters + belief + innovation + back;
+        let predict = predict_scratch(n, q, shape, sizes.model, smoothing)
+            + if smoothing { accumulate_scratch(n) } else { 0 };
+        let update = update_scratch(n, d, r, shape, sizes.model);
+        Self { sizes, shape, smoothing, len: kept + if predict > update { predict } else { update } }
+    }
+}

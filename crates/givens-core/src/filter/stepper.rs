@@ -1,0 +1,262 @@
+//! A filter in motion: its memory, its start, and what it knows.
+
+use super::error::{Fault, Quantity, StepError};
+use super::form::{Belief, Form};
+use super::memory::take;
+use super::methods::Method;
+use super::predict::Backward;
+use super::start::{Layout, Sizes};
+use super::update::Innovation;
+use crate::model::Transition;
+use crate::rule::{Rule, Shape};
+use crate::scalar::Real;
+use core::marker::PhantomData;
+
+/// A filter in motion: the belief about the state at one time, moved by predictions and taught by measurements.
+///
+/// ```
+/// use givens_core::filter::{Gaussian, Method, SrCkf};
+/// use givens_core::model::zoo::{CoordinatedTurn, RangeBearing};
+///
+/// let (model, radar) = (CoordinatedTurn::default(), RangeBearing::published());
+/// let prior = Gaussian::from_std(&[1000.0, 300.0, 1000.0, 0.0, -0.05], &[10.0, 3.2, 10.0, 3.2, 0.01])?;
+/// let mut f = SrCkf::default().start(&model, 0.0, &prior)?;
+/// f.predict(1.0)?;
+/// f.update(&radar, &[1640.0, 0.65])?;
+/// assert!((f.mean()[0] - 1300.0).abs() < 20.0 && f.innovation().nis < 9.2);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Filter<'m, X, M, T, B> {
+    pub(super) method: X,
+    pub(super) model: &'m M,
+    pub(super) layout: Layout,
+    pub(super) time: f64,
+    pub(super) step: usize,
+    /// Components of the last measurement that were there.
+    pub(super) present: usize,
+    pub(super) memory: B,
+    scalar: PhantomData<T>,
+}
+
+/// The arrays of a filter.
+pub(super) struct Parts<'a, T> {
+    pub table: &'a mut [T],
+    pub u: &'a mut [T],
+    pub p: &'a mut [T],
+    pub belief: Belief<'a, T>,
+    pub total: Backward<'a, T>,
+    pub later: Backward<'a, T>,
+    pub measured: &'a mut [T],
+    pub predicted: &'a mut [T],
+    pub nu: &'a mut [T],
+    pub factor: &'a mut [T],
+    pub white: &'a mut [T],
+    pub scores: &'a mut [T],
+    pub scratch: &'a mut [T],
+}
+
+/// Carves the memory. The arrays that depend on the measurement's length stand last, so that the others stay where
+/// they are when the memory grows for a longer one.
+pub(super) fn parts<'a, T, F: Form>(layout: &Layout, mut memory: &'a mut [T]) -> Parts<'a, T> {
+    let Sizes { states: n, measures: d, .. } = layout.sizes;
+    let m = &mut memory;
+    let square = if layout.smoothing { n * n } else { 0 };
+    let root = if F::SQUARE_ROOT { square } else { 0 };
+    Parts {
+        table: take(m, layout.shape.table),
+        u: take(m, layout.sizes.controls),
+        p: take(m, layout.sizes.parameters),
+        belief: Belief {
+            mean: take(m, n),
+            factor: take(m, n * n),
+            cov: take(m, if F::SQUARE_ROOT { 0 } else { n * n }),
+        },
+        total: Backward { gain: take(m, square), conditional: take(m, root) },
+        later: Backward { gain: take(m, square), conditional: take(m, root) },
+        measured: take(m, d),
+        predicted: take(m, d),
+        nu: take(m, d),
+        factor: take(m, d * d),
+        white: take(m, d),
+        scores: take(m, 2),
+        scratch: core::mem::take(m),
+    }
+}
+
+/// The initial belief of a filter, in plain slices: the mean of length n, the lower-triangular root of the covariance,
+/// n × n, and the covariance itself (read in covariance form only).
+#[derive(Clone, Copy, Debug)]
+pub struct Prior<'a> {
+    /// When it holds.
+    pub time: f64,
+    /// Length n.
+    pub mean: &'a [f64],
+    /// Lower triangular, n × n.
+    pub factor: &'a [f64],
+    /// n × n.
+    pub cov: &'a [f64],
+}
+
+impl<'m, X: Method, M: Transition, T: Real, B: AsMut<[T]>> Filter<'m, X, M, T, B> {
+    /// Starts a filter in the caller's memory of at least [`memory_len`](Self::memory_len) scalars. With `smoothing`,
+    /// every prediction also leaves what a smoother needs to come [`back`](Self::backward) over it.
+    ///
+    /// # Errors
+    /// An option out of its range, a slice of the wrong length, a number that is not finite.
+    pub fn start_in(
+        method: X,
+        model: &'m M,
+        sizes: Sizes,
+        smoothing: bool,
+        prior: Prior,
+        mut memory: B,
+    ) -> Result<Self, StepError> {
+        let n = sizes.states;
+        let fail = |fault| StepError { fault, time: prior.time, step: 0 };
+        method.rule().check(n).map_err(|error| fail(Fault::Option(error)))?;
+        let layout = Layout::new(sizes, method.rule().shape(n), smoothing);
+        for (of, expected, found) in [
+            ("the model's state", n, model.states()),
+            ("mean", n, prior.mean.len()),
+            ("factor", n * n, prior.factor.len()),
+            ("covariance", n * n, prior.cov.len()),
+            ("the filter's memory", layout.len, layout.len.min(memory.as_mut().len())),
+        ] {
+            if expected != found {
+                return Err(fail(Fault::Length { of, expected, found }));
+            }
+        }
+        for values in [prior.mean, prior.factor, prior.cov] {
+            if let Some(component) = values.iter().position(|x| !x.is_finite()) {
+                return Err(fail(Fault::NotFinite { quantity: Quantity::Estimate, component }));
+            }
+        }
+        let arrays = parts::<T, X::Form>(&layout, memory.as_mut());
+        method.rule().tabulate(n, arrays.table);
+        for (to, from) in [
+            (arrays.p, model.parameters()),
+            (arrays.belief.mean, prior.mean),
+            (arrays.belief.factor, prior.factor),
+            (arrays.belief.cov, prior.cov),
+        ] {
+            to.iter_mut().zip(from).for_each(|(to, &x)| *to = T::of(x));
+        }
+        let (time, scalar) = (prior.time, PhantomData);
+        Ok(Self { method, model, layout, time, step: 0, present: 0, memory, scalar })
+    }
+
+    /// Scalars of memory that a filter of these sizes needs.
+    #[must_use]
+    pub fn memory_len(method: &X, sizes: Sizes, smoothing: bool) -> usize {
+        Layout::new(sizes, method.rule().shape(sizes.states), smoothing).len
+    }
+
+    pub(super) fn parts(&mut self) -> Parts<'_, T> {
+        parts::<T, X::Form>(&self.layout, self.memory.as_mut())
+    }
+
+    /// Sets the controls, which hold until they are set again.
+    ///
+    /// # Errors
+    /// A wrong number of them, or one that is not finite.
+    pub fn set_controls(&mut self, u: &[f64]) -> Result<(), StepError> {
+        let (time, step) = (self.time, self.step);
+        set(self.parts().u, u, "controls", Quantity::Control).map_err(|fault| StepError { fault, time, step })
+    }
+
+    /// Sets the parameters, in place of the model's own.
+    ///
+    /// # Errors
+    /// A wrong number of them, or one that is not finite.
+    pub fn set_parameters(&mut self, p: &[f64]) -> Result<(), StepError> {
+        let (time, step) = (self.time, self.step);
+        set(self.parts().p, p, "parameters", Quantity::Parameter).map_err(|fault| StepError { fault, time, step })
+    }
+}
+
+fn set<T: Real>(to: &mut [T], from: &[f64], of: &'static str, quantity: Quantity) -> Result<(), Fault> {
+    if to.len() != from.len() {
+        return Err(Fault::Length { of, expected: to.len(), found: from.len() });
+    }
+    if let Some(component) = from.iter().position(|x| !x.is_finite()) {
+        return Err(Fault::NotFinite { quantity, component });
+    }
+    to.iter_mut().zip(from).for_each(|(to, &x)| *to = T::of(x));
+    Ok(())
+}
+
+/// What the filter knows.
+impl<X: Method, M, T: Real, B: AsRef<[T]>> Filter<'_, X, M, T, B> {
+    /// Where an array that stands `skip` scalars behind the parameters begins.
+    fn array(&self, skip: usize, len: usize) -> &[T] {
+        let at = self.layout.shape.table + self.layout.sizes.controls + self.layout.sizes.parameters + skip;
+        &self.memory.as_ref()[at..at + len]
+    }
+
+    /// The time at which the belief holds.
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
+    /// The state estimate, length n.
+    pub fn mean(&self) -> &[T] {
+        self.array(0, self.layout.sizes.states)
+    }
+
+    /// S with P = S Sᵀ, lower triangular n × n, diagonal ≥ 0.
+    pub fn factor(&self) -> &[T] {
+        let n = self.layout.sizes.states;
+        self.array(n, n * n)
+    }
+
+    /// Writes P, n × n: the filter's own in covariance form, S Sᵀ in square-root form.
+    pub fn write_cov(&self, cov: &mut [T]) {
+        let n = self.layout.sizes.states;
+        if X::Form::SQUARE_ROOT {
+            crate::kernels::square(cov, n, self.factor(), n, n);
+        } else {
+            cov[..n * n].copy_from_slice(self.array(n + n * n, n * n));
+        }
+    }
+
+    /// P, n × n, in memory of its own.
+    #[cfg(feature = "alloc")]
+    pub fn cov(&self) -> alloc::vec::Vec<T> {
+        let mut cov = alloc::vec![T::zero(); self.layout.sizes.states.pow(2)];
+        self.write_cov(&mut cov);
+        cov
+    }
+
+    /// Of the last prediction, what a smoother needs: the gain, and in square-root form the conditional root, both
+    /// n × n (chained over all steps of a gap). Empty unless the filter was started for smoothing.
+    pub fn backward(&self) -> (&[T], &[T]) {
+        let n = self.layout.sizes.states;
+        let square = if self.layout.smoothing { n * n } else { 0 };
+        let (belief, root) = if X::Form::SQUARE_ROOT { (n + n * n, square) } else { (n + 2 * n * n, 0) };
+        (self.array(belief, square), self.array(belief + square, root))
+    }
+
+    /// What the last measurement said; empty before the first.
+    pub fn innovation(&self) -> Innovation<'_, T> {
+        let Sizes { states: n, measures: d, .. } = self.layout.sizes;
+        let square = if self.layout.smoothing { n * n } else { 0 };
+        let at = if X::Form::SQUARE_ROOT { n + n * n + 4 * square } else { n + 2 * n * n + 2 * square } + d;
+        let of = |skip: usize, len: usize| self.array(at + skip, len);
+        let k = self.present;
+        let scores = of(3 * d + d * d, 2);
+        Innovation {
+            predicted: of(0, k),
+            nu: of(d, k),
+            factor: of(2 * d, k * k),
+            white: of(2 * d + d * d, k),
+            nis: scores[0],
+            log_likelihood: scores[1],
+        }
+    }
+
+    /// The shape of the filter's rule, for [`Sizes::with_sensor`].
+    pub fn shape(&self) -> Shape {
+        self.layout.shape
+    }
+}

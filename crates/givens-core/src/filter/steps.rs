@@ -1,0 +1,181 @@
+//! The two steps of a filter: `predict(t)` and `update(sensor, z)`.
+
+use super::error::{Fault, StepError};
+use super::methods::Method;
+use super::predict::{Backward, accumulate, lanes, predict};
+use super::start::Layout;
+use super::stepper::{Filter, Parts};
+use super::update::{InnovationMut, Measurement, update};
+use super::Matrix;
+use crate::model::{At, Observation, Transition};
+use crate::scalar::Real;
+
+/// Memory that may or may not be made longer.
+pub trait Grow<T>: AsRef<[T]> + AsMut<[T]> {
+    /// Makes the memory at least `len` long, if it can.
+    fn grow(&mut self, len: usize);
+}
+
+#[cfg(feature = "alloc")]
+impl<T: Real> Grow<T> for alloc::vec::Vec<T> {
+    fn grow(&mut self, len: usize) {
+        self.resize(len.max(self.len()), T::zero());
+    }
+}
+
+impl<T> Grow<T> for &mut [T] {
+    fn grow(&mut self, _: usize) {}
+}
+
+impl<T, const N: usize> Grow<T> for [T; N] {
+    fn grow(&mut self, _: usize) {}
+}
+
+impl<X: Method, M: Transition, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
+    /// Moves the belief to time `t`. A model with a fixed step takes as many as the gap holds; others take one of
+    /// any length. At the present time nothing happens.
+    ///
+    /// # Errors
+    /// A time in the past, a gap that is not whole steps, a model that is not finite or whose noise is no covariance,
+    /// a predicted covariance that is not positive definite. The belief is then that of the last step that succeeded.
+    pub fn predict(&mut self, t: f64) -> Result<(), StepError> {
+        let (from, gap) = (self.time, t - self.time);
+        let refuse = |fault| Err(StepError { fault, time: from, step: self.step });
+        if !(gap >= 0.0 && gap.is_finite()) {
+            return refuse(Fault::Backwards { to: t });
+        }
+        let (count, dt) = match self.model.period() {
+            Some(period) => {
+                let whole = Real::floor(gap / period + 0.5);
+                if Real::abs(gap / period - whole) > 1e-6 {
+                    return refuse(Fault::NotWholeSteps { gap, period });
+                }
+                (whole as usize, period)
+            }
+            None => (usize::from(gap > 0.0), gap),
+        };
+        self.stand_still();
+        for k in 0..count {
+            self.one_step(from + k as f64 * dt, dt, k > 0)?;
+        }
+        self.time = t;
+        Ok(())
+    }
+
+    /// Before the first step of a gap: G = I, and nothing unknown about the state given itself.
+    fn stand_still(&mut self) {
+        let n = self.layout.sizes.states;
+        let total = self.parts().total;
+        total.conditional.fill(T::zero());
+        for (i, g) in total.gain.iter_mut().enumerate() {
+            *g = if i % (n + 1) == 0 { T::one() } else { T::zero() };
+        }
+    }
+
+    fn one_step(&mut self, t: f64, dt: f64, chained: bool) -> Result<(), StepError> {
+        let (rule, model, n) = (self.method.rule(), self.model, self.layout.sizes.states);
+        let smoothing = self.layout.smoothing;
+        let step = self.step;
+        let fail = |fault| StepError { fault, time: t + dt, step };
+        let Parts { table, u, p, mut belief, mut total, later, scratch, .. } = self.parts();
+        let at = At { t: T::of(t), dt: T::of(dt), u, p };
+        if chained && smoothing {
+            let back = Backward { gain: &mut *later.gain, conditional: &mut *later.conditional };
+            predict::<_, _, _, X::Form>(&rule, table, model, &at, &mut belief, Some(back), scratch).map_err(fail)?;
+            lanes(accumulate(n, &mut total, &later, scratch), Matrix::Conditional).map_err(fail)?;
+        } else {
+            let back = smoothing.then_some(total);
+            predict::<_, _, _, X::Form>(&rule, table, model, &at, &mut belief, back, scratch).map_err(fail)?;
+        }
+        self.time = t + dt;
+        self.step += 1;
+        Ok(())
+    }
+
+    /// Teaches the belief a whole measurement of `sensor` at the present time.
+    ///
+    /// # Errors
+    /// A measurement of the wrong length or that is not finite, a sensor model that is not finite or whose noise is no
+    /// covariance, an innovation or posterior covariance that is not positive definite, too little memory. The belief
+    /// is then as predicted.
+    pub fn update<H: Observation>(&mut self, sensor: &H, z: &[f64]) -> Result<(), StepError> {
+        self.measure(sensor, z, None)
+    }
+
+    /// Teaches the belief the components of a measurement that are there: `present[i]` tells for component i. With
+    /// none of them, the belief stays as predicted.
+    ///
+    /// # Errors
+    /// As [`update`](Self::update).
+    pub fn update_present<H: Observation>(
+        &mut self,
+        sensor: &H,
+        z: &[f64],
+        present: &[bool],
+    ) -> Result<(), StepError> {
+        self.measure(sensor, z, Some(present))
+    }
+
+    fn measure<H: Observation>(
+        &mut self,
+        sensor: &H,
+        z: &[f64],
+        present: Option<&[bool]>,
+    ) -> Result<(), StepError> {
+        let (time, step, d) = (self.time, self.step, sensor.measures());
+        let fail = |fault| StepError { fault, time, step };
+        for (of, expected, found) in [
+            ("the sensor's state", self.layout.sizes.states, sensor.states()),
+            ("measurement", d, z.len()),
+            ("present", d, present.map_or(d, <[bool]>::len)),
+            ("the sensor's controls", sensor.controls(), sensor.controls().min(self.layout.sizes.controls)),
+        ] {
+            if expected != found {
+                return Err(fail(Fault::Length { of, expected, found }));
+            }
+        }
+        self.make_room(sensor).map_err(fail)?;
+        let (rule, block) = (self.method.rule(), self.method.block());
+        let Parts { table, u, p, mut belief, measured, predicted, nu, factor, white, scores, scratch, .. } =
+            self.parts();
+        let at = At { t: T::of(time), dt: T::zero(), u, p };
+        let measured = &mut measured[..d];
+        measured.iter_mut().zip(z).for_each(|(to, &z)| *to = T::of(z));
+        let measurement = Measurement { z: measured, present };
+        let (nis, log_likelihood) = scores.split_at_mut(1);
+        let (nis, log_likelihood) = (&mut nis[0], &mut log_likelihood[0]);
+        let mut innovation = InnovationMut { predicted, nu, factor, white, nis, log_likelihood };
+        let done = update::<_, _, _, X::Form>(
+            &rule,
+            block,
+            table,
+            sensor,
+            &at,
+            measurement,
+            &mut belief,
+            &mut innovation,
+            scratch,
+        );
+        let (present, _) = done.map_err(fail)?;
+        self.present = present;
+        self.step += 1;
+        Ok(())
+    }
+
+    /// Grows the memory for a sensor that is longer than those before, once.
+    fn make_room<H: Observation>(&mut self, sensor: &H) -> Result<(), Fault> {
+        let sizes = self.layout.sizes.with_sensor(sensor, self.layout.shape);
+        if self.layout.sizes.hold(&sizes) {
+            return Ok(());
+        }
+        let layout = Layout::new(sizes, self.layout.shape, self.layout.smoothing);
+        self.memory.grow(layout.len);
+        let found = self.memory.as_ref().len();
+        if found < layout.len {
+            return Err(Fault::Length { of: "the filter's memory", expected: layout.len, found });
+        }
+        self.layout = layout;
+        self.present = 0;
+        Ok(())
+    }
+}

@@ -1,0 +1,54 @@
+//! The innovation: what the measurement said beyond the prediction, and how likely it was.
+
+use crate::scalar::Real;
+
+/// ν = z − ẑ of the components that were there, its covariance, and what they say of the filter.
+#[derive(Clone, Copy, Debug)]
+pub struct Innovation<'a, T> {
+    /// ẑ of the d components that were there, in order; angles wrapped into one period.
+    pub predicted: &'a [T],
+    /// ν = z − ẑ, length d; angles wrapped.
+    pub nu: &'a [T],
+    /// A lower-triangular root of P_zz, d × d.
+    pub factor: &'a [T],
+    /// ν in the coordinates of that root: independent and of unit variance if the filter is right.
+    pub white: &'a [T],
+    /// νᵀ P_zz⁻¹ ν; zero without any component.
+    pub nis: T,
+    /// −½ (νᵀ P_zz⁻¹ ν + ln |P_zz| + d ln 2π).
+    pub log_likelihood: T,
+}
+
+impl<T: Real> Innovation<'_, T> {
+    /// Element (i, j) of P_zz.
+    pub fn cov(&self, i: usize, j: usize) -> T {
+        let d = self.nu.len();
+        (0..=i.min(j)).fold(T::zero(), |sum, k| self.factor[i * d + k].mul_add(self.factor[j * d + k], sum))
+    }
+}
+
+/// The memory in which an update writes its innovation.
+#[derive(Debug)]
+pub(crate) struct InnovationMut<'a, T> {
+    pub predicted: &'a mut [T],
+    pub nu: &'a mut [T],
+    pub factor: &'a mut [T],
+    pub white: &'a mut [T],
+    pub nis: &'a mut T,
+    pub log_likelihood: &'a mut T,
+}
+
+impl<T: Real> InnovationMut<'_, T> {
+    /// NIS and log-likelihood from the root and the whitened innovation of `d` components.
+    #[inline(always)]
+    pub fn score(&mut self, d: usize) {
+        let (mut nis, mut half_ln_det) = (T::zero(), T::zero());
+        for i in 0..d {
+            nis = self.white[i].mul_add(self.white[i], nis);
+            half_ln_det += self.factor[i * d + i].ln();
+        }
+        let constant = 0.5 * d as f64 * Real::ln(core::f64::consts::TAU);
+        *self.nis = nis;
+        *self.log_likelihood = -T::of(0.5) * nis - half_ln_det - T::of(constant);
+    }
+}

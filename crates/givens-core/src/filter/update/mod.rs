@@ -1,0 +1,74 @@
+//! Measurement updates: what a measurement teaches about the state.
+
+mod covariance;
+mod innovation;
+mod joint;
+mod separate;
+mod sensed;
+
+pub use innovation::Innovation;
+pub(crate) use innovation::InnovationMut;
+
+use super::error::Fault;
+use super::form::{Belief, Form};
+use crate::model::{At, Observation};
+use crate::rule::{Rule, Shape, spread_scratch};
+use crate::scalar::Real;
+use sensed::{Sensed, sense, sense_scratch};
+
+/// The block that a square-root measurement update triangularises.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Block {
+    /// Innovation, gain and posterior by one triangularisation (2010 eq 36; 2011 eq 27).
+    #[default]
+    Joint,
+    /// Innovation and posterior one after the other (2009 Appendix B).
+    Separate,
+}
+
+/// A measurement, and which of its components are there (`None`: all).
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Measurement<'a, T> {
+    pub z: &'a [T],
+    pub present: Option<&'a [bool]>,
+}
+
+/// Scalars of scratch of [`update`]: d measures, r noise columns, `map` of the model's own.
+pub(crate) const fn update_scratch(n: usize, d: usize, r: usize, shape: Shape, map: usize) -> usize {
+    let joint = joint::joint_scratch(n, d, shape.plus + r);
+    let separate = separate::separate_scratch(n, d, n + shape.plus + r);
+    let covariance = covariance::covariance_scratch(n, d);
+    let mut block = if joint > separate { joint } else { separate };
+    block = if covariance > block { covariance } else { block };
+    let spread = spread_scratch(shape, n, d, map);
+    sense_scratch(n, d, r, shape) + if block > spread { block } else { spread }
+}
+
+/// Updates `belief` by a measurement, writes the innovation and returns how many components were there. With none,
+/// or after a fault, the belief is as before.
+#[inline(always)]
+pub(crate) fn update<T: Real, H: Observation, R: Rule, F: Form>(
+    rule: &R,
+    block: Block,
+    table: &[T],
+    h: &H,
+    at: &At<T>,
+    measurement: Measurement<T>,
+    belief: &mut Belief<T>,
+    innovation: &mut InnovationMut<T>,
+    mut scratch: &mut [T],
+) -> Result<(usize, T::Mask), Fault> {
+    let (sensed, mut sick) = sense(rule, table, h, at, &measurement, belief, innovation, &mut scratch)?;
+    if sensed.d == 0 {
+        (*innovation.nis, *innovation.log_likelihood) = (T::zero(), T::zero());
+        return Ok((0, sick));
+    }
+    let more = match (F::SQUARE_ROOT, block) {
+        (false, _) => covariance::update(&sensed, belief, innovation, scratch),
+        (true, Block::Joint) => joint::update(&sensed, belief, innovation, scratch),
+        (true, Block::Separate) => separate::update(&sensed, belief, innovation, scratch),
+    };
+    sick = sick | more.map_err(|fault| measurement.in_whole(fault))?;
+    innovation.score(sensed.d);
+    Ok((sensed.d, sick))
+}

@@ -1,0 +1,100 @@
+//! The predicted measurement: the rule's spread of h and the noise, of the components that are there.
+
+use super::{InnovationMut, Measurement};
+use crate::filter::error::{Fault, Matrix, Quantity};
+use crate::filter::form::Belief;
+use crate::filter::memory::take;
+use crate::filter::predict::lanes;
+use crate::model::{At, Observation, Sensed as SensedMap};
+use crate::rule::{Rule, Shape, Spread};
+use crate::scalar::{Mask, Real};
+
+/// Z = [D E S_R] and the negative columns, rows of the present components only.
+pub(super) struct Sensed<'a, T> {
+    /// Number of components present.
+    pub d: usize,
+    /// d rows of length `stride`: D (n columns), E, S_R.
+    pub dev: &'a [T],
+    pub stride: usize,
+    /// d rows of length `lost`.
+    pub minus: &'a [T],
+    pub lost: usize,
+}
+
+impl<T> Measurement<'_, T> {
+    /// A fault of the present components, numbered as in the whole measurement.
+    pub fn in_whole(&self, fault: Fault) -> Fault {
+        let whole = |i: usize| match self.present {
+            Some(present) => (0..present.len()).filter(|&k| present[k]).nth(i).unwrap_or(i),
+            None => i,
+        };
+        match fault {
+            Fault::SingularInnovation { measure } => Fault::SingularInnovation { measure: whole(measure) },
+            Fault::NotPositive { matrix: Matrix::Innovation, pivot } => {
+                Fault::NotPositive { matrix: Matrix::Innovation, pivot: whole(pivot) }
+            }
+            other => other,
+        }
+    }
+}
+
+/// Scalars of scratch that [`sense`] keeps.
+pub(super) const fn sense_scratch(n: usize, d: usize, r: usize, shape: Shape) -> usize {
+    d * (n + shape.plus + r) + d * shape.minus + d * r
+}
+
+/// Predicts the measurement and compares; the rest of `scratch` is left for the update.
+#[inline(always)]
+pub(super) fn sense<'a, T: Real, H: Observation, R: Rule>(
+    rule: &R,
+    table: &[T],
+    h: &H,
+    at: &At<T>,
+    measurement: &Measurement<T>,
+    belief: &Belief<T>,
+    innovation: &mut InnovationMut<T>,
+    scratch: &mut &'a mut [T],
+) -> Result<(Sensed<'a, T>, T::Mask), Fault> {
+    let (n, all) = (belief.mean.len(), h.measures());
+    let shape = rule.shape(n);
+    let r = h.noise().columns(all);
+    let stride = n + shape.plus + r;
+    let dev = take(scratch, all * stride);
+    let minus = take(scratch, all * shape.minus);
+    let root = take(scratch, all * r);
+    let mean = &mut innovation.predicted[..all];
+
+    let mut spread = Spread { mean: &mut *mean, dev: &mut *dev, stride, minus: &mut *minus };
+    rule.spread(table, &SensedMap(h), at, belief.mean, belief.factor, &mut spread, scratch);
+    let sick = lanes(h.noise_root(at, root), Matrix::MeasurementNoise)?;
+
+    let mut d = 0;
+    for i in 0..all {
+        if measurement.present.is_some_and(|present| !present[i]) {
+            continue;
+        }
+        let bad = |quantity| Err(Fault::NotFinite { quantity, component: i });
+        let row = &dev[i * stride..i * stride + n + shape.plus];
+        let size = row.iter().fold(mean[i].abs(), |sum, &x| sum + x.abs());
+        if (!size.finite()).all() {
+            return bad(Quantity::Observation);
+        }
+        let noise = &root[i * r..(i + 1) * r];
+        if (!noise.iter().fold(T::zero(), |sum, &x| sum + x.abs()).finite()).all() {
+            return bad(Quantity::MeasurementNoise);
+        }
+        if (!measurement.z[i].finite()).all() {
+            return bad(Quantity::Measurement);
+        }
+        // move the row up over the absent ones: the root of the kept R is its kept rows, all columns
+        dev.copy_within(i * stride..(i + 1) * stride, d * stride);
+        dev[d * stride + n + shape.plus..(d + 1) * stride].copy_from_slice(noise);
+        minus.copy_within(i * shape.minus..(i + 1) * shape.minus, d * shape.minus);
+        let nu = measurement.z[i] - mean[i];
+        let wrapped = |x: T| h.angle(i).map_or(x, |period| x.wrap(T::of(period)));
+        innovation.nu[d] = wrapped(nu);
+        mean[d] = wrapped(mean[i]);
+        d += 1;
+    }
+    Ok((Sensed { d, dev, stride, minus, lost: shape.minus }, sick))
+}

@@ -1,0 +1,129 @@
+//! Gauss–Hermite quadrature on a tensor grid.
+
+use super::points::TABLE_STATES;
+use super::{Centre, Pairs, PointRule, RuleError};
+use crate::scalar::Real;
+
+/// pⁿ points, the roots of the probabilists' Hermite polynomial of degree p along every axis: exact for
+/// monomials of degree 2p − 1 in each variable (Ito & Xiong 2000; Arasaratnam, Haykin & Elliott 2007).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct GaussHermite {
+    /// Points per axis, from 2 to 64.
+    pub points: usize,
+}
+
+impl Default for GaussHermite {
+    fn default() -> Self {
+        Self { points: 3 }
+    }
+}
+
+/// The largest grid for which a table is made.
+const GRID: usize = 1 << 21;
+
+impl GaussHermite {
+    /// pⁿ, or `usize::MAX` if it does not fit.
+    fn grid(&self, n: usize) -> usize {
+        u32::try_from(n).ok().and_then(|n| self.points.checked_pow(n)).unwrap_or(usize::MAX)
+    }
+}
+
+impl PointRule for GaussHermite {
+    fn check(&self, n: usize) -> Result<(), RuleError> {
+        let value = self.points as f64;
+        if !(2..=64).contains(&self.points) {
+            return Err(RuleError { option: "points", value, must: "must be from 2 to 64" });
+        }
+        if n > TABLE_STATES || self.grid(n) > GRID {
+            let must = "the grid of points^n nodes (n: number of states) must not exceed 2^21; use fewer points, or \
+                        cubature5";
+            return Err(RuleError { option: "points", value, must });
+        }
+        Ok(())
+    }
+    fn centre(&self, n: usize) -> Option<Centre> {
+        (self.points % 2 == 1).then(|| {
+            let weight = Real::powi(weight(self.points, 0.0), n as i32);
+            Centre { mean: weight, cov: weight }
+        })
+    }
+    /// Node i of the grid and node pⁿ − 1 − i are opposite.
+    fn pairs(&self, n: usize) -> Pairs {
+        Pairs::Table { count: self.grid(n) / 2, negative: 0 }
+    }
+    fn pair(&self, l: usize, xi: &mut [f64]) -> f64 {
+        let mut digits = l;
+        let mut product = 1.0;
+        for x in xi {
+            *x = root(self.points, digits % self.points);
+            product *= weight(self.points, *x);
+            digits /= self.points;
+        }
+        product
+    }
+}
+
+/// Values at `x` of the Hermite polynomials of degree p − 1 and p, orthonormal for N(0, 1), the number of sign changes
+/// along the degrees 0…p, which is the number of roots above x, and Σ h_k² over k < p.
+fn hermite(p: usize, x: f64) -> (f64, f64, usize, f64) {
+    let (mut before, mut here, mut changes, mut squares) = (0.0, 1.0, 0, 0.0);
+    for k in 0..p {
+        squares += here * here;
+        let (k, next_k) = (k as f64, k as f64 + 1.0);
+        let next = (x * here - Real::sqrt(k) * before) / Real::sqrt(next_k);
+        changes += usize::from(next * here < 0.0 || (here == 0.0 && next * before < 0.0));
+        before = here;
+        here = next;
+    }
+    (before, here, changes, squares)
+}
+
+/// Root `index` of degree p, from the smallest; opposite roots are opposite to the bit.
+fn root(p: usize, index: usize) -> f64 {
+    if 2 * index + 1 == p {
+        return 0.0;
+    }
+    if 2 * index + 1 < p {
+        return -root(p, p - 1 - index);
+    }
+    // the roots lie within ±√(4p + 2); `index` of them lie below this one
+    let above = p - 1 - index;
+    let (mut low, mut high) = (0.0, Real::sqrt(4.0 * p as f64 + 2.0));
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if hermite(p, middle).2 > above { low = middle } else { high = middle }
+    }
+    let mut x = 0.5 * (low + high);
+    for _ in 0..3 {
+        let (before, here, ..) = hermite(p, x);
+        x -= here / (Real::sqrt(p as f64) * before);
+    }
+    x
+}
+
+/// The weight of root `x`: 1 / Σ_{k<p} h_k(x)².
+fn weight(p: usize, x: f64) -> f64 {
+    1.0 / hermite(p, x).3
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{root, weight};
+
+    #[test]
+    fn three_points_are_zero_and_root_three() {
+        assert!((root(3, 2) - 3.0f64.sqrt()).abs() < 1e-15 && root(3, 1) == 0.0);
+        assert!((weight(3, 0.0) - 2.0 / 3.0).abs() < 1e-15 && (weight(3, root(3, 0)) - 1.0 / 6.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn sixty_four_points_integrate_the_hundredth_moment() {
+        // E[x^100] = 99!!, relative
+        let log_double_factorial: f64 = (1..=50).map(|k| f64::from(2 * k - 1).ln()).sum();
+        let sum: f64 = (0..64)
+            .map(|i| root(64, i))
+            .map(|x| (weight(64, x).ln() + 100.0 * x.abs().ln() - log_double_factorial).exp())
+            .sum();
+        assert!((sum - 1.0).abs() < 1e-11, "{sum}");
+    }
+}

@@ -1,0 +1,60 @@
+//! Symmetric points: every point m + S ξ comes with m − S ξ, and a centre if the rule or an angle needs one.
+
+use crate::model::{At, Map};
+use crate::scalar::Real;
+
+/// The images of h pairs and of the centre, d rows of 2h + 1 (or 2h): first the points m + S ξ, then m − S ξ.
+pub(super) struct Images<'a, T> {
+    pub y: &'a mut [T],
+    pub pairs: usize,
+    pub points: usize,
+}
+
+impl<T: Real> Images<'_, T> {
+    /// The images of component `i`: plus, minus, and the centre if there is one.
+    #[inline(always)]
+    pub fn row(&self, i: usize) -> (&[T], &[T], Option<T>) {
+        let row = &self.y[i * self.points..(i + 1) * self.points];
+        let (plus, rest) = row.split_at(self.pairs);
+        let (minus, centre) = rest.split_at(self.pairs);
+        (plus, minus, centre.first().copied())
+    }
+}
+
+/// Evaluates `g` at m ± `offset(i, l)`, l = 0…pairs, and at m if `centred` or if `g` has an angle; then moves every
+/// image of an angle once to the reference g(m) (`spec` §2).
+#[inline(always)]
+pub(super) fn evaluate<'a, T: Real, G: Map>(
+    g: &G,
+    at: &At<T>,
+    mean: &[T],
+    pairs: usize,
+    centred: bool,
+    offset: impl Fn(usize, usize) -> T,
+    scratch: &'a mut [T],
+) -> Images<'a, T> {
+    let (n, d) = (mean.len(), g.outputs());
+    let has_angle = (0..d).any(|i| g.angle(i).is_some());
+    let points = 2 * pairs + usize::from(centred || has_angle);
+    let (x, rest) = scratch.split_at_mut(n * points);
+    let (y, rest) = rest.split_at_mut(d * points);
+    for (i, (row, &m)) in x.chunks_exact_mut(points).zip(mean).enumerate() {
+        for l in 0..pairs {
+            let step = offset(i, l);
+            row[l] = m + step;
+            row[pairs + l] = m - step;
+        }
+        row[2 * pairs..].fill(m);
+    }
+    g.points(at, points, x, y, rest);
+    for i in 0..d {
+        if let Some(period) = g.angle(i) {
+            let row = &mut y[i * points..(i + 1) * points];
+            let reference = row[2 * pairs];
+            for image in row {
+                *image = reference + (*image - reference).wrap(T::of(period));
+            }
+        }
+    }
+    Images { y, pairs, points }
+}

@@ -1,0 +1,229 @@
+//! The rules made of weighted points: their unit points are data, and all of them share this spread.
+
+use super::pairs::evaluate;
+use super::{Rule, RuleError, Shape, Spread};
+use crate::model::{At, Map};
+use crate::scalar::Real;
+
+/// The weights of the point at the mean.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Centre {
+    /// In the mean.
+    pub mean: f64,
+    /// In the covariance.
+    pub cov: f64,
+}
+
+/// The pairs ±ξ of a rule.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Pairs {
+    /// ±radius e_i, one pair along each axis, all of one positive weight 1/(2 radius²).
+    Axes {
+        /// Distance of the points from the mean, in standard deviations.
+        radius: f64,
+    },
+    /// `count` pairs from [`PointRule::pair`], the last `negative` of them of negative weight.
+    Table {
+        /// Number of pairs.
+        count: usize,
+        /// How many of them, standing last, have a negative weight.
+        negative: usize,
+    },
+}
+
+/// A rule that is a set of weighted unit points, symmetric about zero: E[g] ≈ Σ w_i g(m + S ξ_i).
+///
+/// The points integrate quadratics: Σ w_i ξ_i ξ_iᵀ = I. A new rule implements this trait and nothing else.
+pub trait PointRule: Copy {
+    /// What is wrong with the options for a state of length `n`, if anything.
+    ///
+    /// # Errors
+    /// An option out of its range, named.
+    fn check(&self, n: usize) -> Result<(), RuleError> {
+        let _ = n;
+        Ok(())
+    }
+    /// The weights of the point at the mean, if there is one.
+    fn centre(&self, n: usize) -> Option<Centre>;
+    /// The pairs.
+    fn pairs(&self, n: usize) -> Pairs;
+    /// Writes the unit point ξ of pair `l` and returns its weight (that of each of the two).
+    fn pair(&self, l: usize, xi: &mut [f64]) -> f64 {
+        let _ = (l, xi);
+        f64::NAN
+    }
+}
+
+/// The longest state for which a table of nodes is made.
+pub(super) const TABLE_STATES: usize = 64;
+
+impl<R: PointRule> Rule for R {
+    fn check(&self, n: usize) -> Result<(), RuleError> {
+        PointRule::check(self, n)
+    }
+
+    fn shape(&self, n: usize) -> Shape {
+        let (centre_plus, centre_minus) = match self.centre(n) {
+            Some(c) if c.cov < 0.0 => (0, 1),
+            Some(_) => (1, 0),
+            None => (0, 0),
+        };
+        match self.pairs(n) {
+            Pairs::Axes { .. } => {
+                Shape { table: 0, points: 2 * n + 1, plus: n + centre_plus, minus: centre_minus }
+            }
+            Pairs::Table { count, negative } => Shape {
+                table: count * (n + 2),
+                points: 2 * count + 1,
+                plus: 2 * (count - negative) + centre_plus,
+                minus: 2 * negative + centre_minus,
+            },
+        }
+    }
+
+    /// The table: weights w, scales √(2|w|), then the nodes axis by axis.
+    fn tabulate<T: Real>(&self, n: usize, table: &mut [T]) {
+        let Pairs::Table { count, .. } = self.pairs(n) else { return };
+        let mut node = [0.0; TABLE_STATES];
+        let xi = &mut node[..n];
+        for l in 0..count {
+            let weight = self.pair(l, xi);
+            table[l] = T::of(weight);
+            table[count + l] = T::of(Real::sqrt(2.0 * Real::abs(weight)));
+            for (i, &x) in xi.iter().enumerate() {
+                table[(2 + i) * count + l] = T::of(x);
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn spread<T: Real, G: Map>(
+        &self,
+        table: &[T],
+        g: &G,
+        at: &At<T>,
+        mean: &[T],
+        factor: &[T],
+        out: &mut Spread<T>,
+        scratch: &mut [T],
+    ) {
+        let n = mean.len();
+        let centre = self.centre(n);
+        match self.pairs(n) {
+            Pairs::Axes { radius } => along_axes(radius, centre, g, at, mean, factor, out, scratch),
+            Pairs::Table { count, negative } => {
+                from_table(table, count, negative, centre, g, at, mean, factor, out, scratch);
+            }
+        }
+    }
+}
+
+/// D_i = (y₊ − y₋)/(2 radius), E_i = √(2w) ((y₊ + y₋)/2 − ȳ), and the centre.
+#[inline(always)]
+fn along_axes<T: Real, G: Map>(
+    radius: f64,
+    centre: Option<Centre>,
+    g: &G,
+    at: &At<T>,
+    mean: &[T],
+    factor: &[T],
+    out: &mut Spread<T>,
+    scratch: &mut [T],
+) {
+    let n = mean.len();
+    let rho = T::of(radius);
+    let images = evaluate(g, at, mean, n, centre.is_some(), |i, l| rho * factor[i * n + l], scratch);
+    let weight = T::of(0.5 / (radius * radius));
+    let (odd, even) = (T::of(0.5 / radius), T::of(1.0 / radius));
+    for i in 0..g.outputs() {
+        let (plus, minus, at_mean) = images.row(i);
+        let reference = if centre.is_some() { at_mean } else { None };
+        let ybar = pair_mean(plus, minus, reference, |_| weight);
+        let row = &mut out.dev[i * out.stride..(i + 1) * out.stride];
+        for l in 0..n {
+            row[l] = odd * (plus[l] - minus[l]);
+            row[n + l] = even * (T::of(0.5) * (plus[l] + minus[l]) - ybar);
+        }
+        put_centre(centre, reference, ybar, &mut row[2 * n..], out.minus.get_mut(i));
+        out.mean[i] = ybar;
+    }
+}
+
+/// D = A J Ξᵀ and E = A − D Ξ, with A the weighted odd and even parts of the images.
+#[inline(always)]
+fn from_table<T: Real, G: Map>(
+    table: &[T],
+    count: usize,
+    negative: usize,
+    centre: Option<Centre>,
+    g: &G,
+    at: &At<T>,
+    mean: &[T],
+    factor: &[T],
+    out: &mut Spread<T>,
+    scratch: &mut [T],
+) {
+    let n = mean.len();
+    let (weights, rest) = table.split_at(count);
+    let (scales, nodes) = rest.split_at(count);
+    let offset = |i: usize, l: usize| {
+        (0..=i).fold(T::zero(), |sum, j| factor[i * n + j].mul_add(nodes[j * count + l], sum))
+    };
+    let images = evaluate(g, at, mean, count, centre.is_some(), offset, scratch);
+    let half = T::of(0.5);
+    let positive = count - negative;
+    let minus_columns = 2 * negative + usize::from(centre.is_some_and(|c| c.cov < 0.0));
+    for i in 0..g.outputs() {
+        let (plus, minus, at_mean) = images.row(i);
+        let reference = if centre.is_some() { at_mean } else { None };
+        let ybar = pair_mean(plus, minus, reference, |l| weights[l]);
+        let row = &mut out.dev[i * out.stride..(i + 1) * out.stride];
+        let lost = &mut out.minus[i * minus_columns..(i + 1) * minus_columns];
+        for j in 0..n {
+            let xi = &nodes[j * count..(j + 1) * count];
+            // Σ over both points of w y ξ: w (y₊ − y₋) ξ
+            row[j] = (0..count).fold(T::zero(), |sum, l| (weights[l] * (plus[l] - minus[l])).mul_add(xi[l], sum));
+        }
+        for l in 0..count {
+            let moved = (0..n).fold(T::zero(), |sum, j| row[j].mul_add(nodes[j * count + l], sum));
+            let even = scales[l] * (half * (plus[l] + minus[l]) - ybar);
+            let odd = scales[l] * (half * (plus[l] - minus[l]) - moved);
+            if l < positive {
+                row[n + l] = even;
+                row[n + positive + l] = odd;
+            } else {
+                lost[l - positive] = even;
+                lost[negative + l - positive] = odd;
+            }
+        }
+        put_centre(centre, reference, ybar, &mut row[n + 2 * positive..], lost.last_mut());
+        out.mean[i] = ybar;
+    }
+}
+
+/// Σ w (y₊ + y₋) and the centre's share; about the centre's image where there is one, since the weights sum to one.
+#[inline(always)]
+fn pair_mean<T: Real>(plus: &[T], minus: &[T], centre: Option<T>, weight: impl Fn(usize) -> T) -> T {
+    let pairs = plus.iter().zip(minus).enumerate();
+    match centre {
+        Some(c) => pairs.fold(c, |sum, (l, (&p, &m))| weight(l).mul_add((p - c) + (m - c), sum)),
+        None => pairs.fold(T::zero(), |sum, (l, (&p, &m))| weight(l).mul_add(p + m, sum)),
+    }
+}
+
+/// The centre's column √|w| (y₀ − ȳ), among the positive or the negative ones by the sign of its weight.
+#[inline(always)]
+fn put_centre<T: Real>(
+    centre: Option<Centre>,
+    image: Option<T>,
+    ybar: T,
+    plus: &mut [T],
+    minus: Option<&mut T>,
+) {
+    let (Some(centre), Some(image)) = (centre, image) else { return };
+    let column = T::of(Real::sqrt(Real::abs(centre.cov))) * (image - ybar);
+    match minus {
+        Some(minus) if centre.cov < 0.0 => *minus = column,
+        _ => plus[0] = column,
+    }
+}

@@ -1,0 +1,35 @@
+//! First-order Taylor expansion by exact derivatives: the extended Kalman filter's rule.
+
+use super::{Rule, RuleError, Shape, Spread};
+use crate::model::{At, Map};
+use crate::scalar::Real;
+
+/// E[g] ≈ g(m), D = J S with J = ∂g/∂x at m: exact for linear maps. An angle is wrapped in the innovation only.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Taylor;
+
+impl Rule for Taylor {
+    fn check(&self, _: usize) -> Result<(), RuleError> {
+        Ok(())
+    }
+
+    fn shape(&self, _: usize) -> Shape {
+        Shape { table: 0, points: 0, plus: 0, minus: 0 }
+    }
+
+    fn tabulate<T: Real>(&self, _: usize, _: &mut [T]) {}
+
+    #[inline(always)]
+    fn spread<T: Real, G: Map>(
+        &self,
+        _: &[T],
+        g: &G,
+        at: &At<T>,
+        mean: &[T],
+        factor: &[T],
+        out: &mut Spread<T>,
+        scratch: &mut [T],
+    ) {
+        g.linear(at, mean, factor, out.mean, out.dev, out.stride, scratch);
+    }
+}

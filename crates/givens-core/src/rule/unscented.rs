@@ -1,0 +1,57 @@
+//! The unscented transform, plain and scaled.
+
+use super::{Centre, Pairs, PointRule, RuleError};
+use crate::scalar::Real;
+
+/// 2n + 1 points: the mean, and ±√(n + λ) e_i with λ = α² (n + κ) − n (Julier & Uhlmann 1997; Wan & van der Merwe 2000).
+///
+/// α = 1, β = 0 is the plain transform with κ; with κ = 0 too it is the cubature rule.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Unscented {
+    /// Spread of the points about the mean.
+    pub alpha: f64,
+    /// Added to the centre's weight in the covariance; 2 suits a Gaussian when `alpha` is small.
+    pub beta: f64,
+    /// The plain transform's parameter; 3 − n if `None`, as in the papers.
+    pub kappa: Option<f64>,
+}
+
+impl Default for Unscented {
+    fn default() -> Self {
+        Self { alpha: 1.0, beta: 0.0, kappa: None }
+    }
+}
+
+impl Unscented {
+    /// n + λ, the square of the points' distance from the mean.
+    fn radius2(&self, n: usize) -> f64 {
+        let n = n as f64;
+        self.alpha * self.alpha * (n + self.kappa.unwrap_or(3.0 - n))
+    }
+}
+
+impl PointRule for Unscented {
+    fn check(&self, n: usize) -> Result<(), RuleError> {
+        let finite = |option, value: f64| {
+            if value.is_finite() { Ok(()) } else { Err(RuleError { option, value, must: "must be a finite number" }) }
+        };
+        finite("beta", self.beta)?;
+        if !(self.alpha > 0.0 && self.alpha.is_finite()) {
+            return Err(RuleError { option: "alpha", value: self.alpha, must: "must be above zero" });
+        }
+        let radius2 = self.radius2(n);
+        if !(radius2 > 0.0 && radius2.is_finite()) {
+            let value = self.kappa.unwrap_or(f64::NAN);
+            return Err(RuleError { option: "kappa", value, must: "n + kappa must be above zero (n: number of states)" });
+        }
+        Ok(())
+    }
+    fn centre(&self, n: usize) -> Option<Centre> {
+        let radius2 = self.radius2(n);
+        let mean = (radius2 - n as f64) / radius2;
+        Some(Centre { mean, cov: mean + 1.0 - self.alpha * self.alpha + self.beta })
+    }
+    fn pairs(&self, n: usize) -> Pairs {
+        Pairs::Axes { radius: Real::sqrt(self.radius2(n)) }
+    }
+}

@@ -1,0 +1,97 @@
+//! One step back: from the smoothed belief at k + 1 to that at k.
+
+use crate::filter::predict::multiply;
+use crate::filter::{Belief, Fault, Form, Matrix};
+use crate::kernels::{add_outer, cholesky_scaled, copy_lower, tria};
+use crate::scalar::Real;
+
+use crate::filter::memory::{put_columns, take};
+use crate::filter::predict::lanes;
+
+/// What was recorded of the time update from k to k + 1.
+#[derive(Clone, Copy, Debug)]
+pub struct Passage<'a, T> {
+    /// m_k, filtered.
+    pub mean: &'a [T],
+    /// P_k, filtered; empty in square-root form.
+    pub cov: &'a [T],
+    /// m⁻_{k+1}.
+    pub predicted_mean: &'a [T],
+    /// P⁻_{k+1}; empty in square-root form.
+    pub predicted_cov: &'a [T],
+    /// G_k, n × n.
+    pub gain: &'a [T],
+    /// A root of the covariance of x_k given x_{k+1}; empty in covariance form.
+    pub conditional: &'a [T],
+}
+
+/// Scalars of scratch of [`step_back`].
+pub(super) const fn back_scratch(n: usize) -> usize {
+    4 * n * n + 2 * n
+}
+
+/// mˢ_k = m_k + G_k (mˢ_{k+1} − m⁻_{k+1}): the mean-only backward pass (2011 §7, remark ii).
+#[inline(always)]
+pub fn mean_back<T: Real>(passage: &Passage<T>, smoothed: &mut [T], scratch: &mut [T]) {
+    let n = smoothed.len();
+    let change = &mut scratch[..n];
+    for (c, (&s, &m)) in change.iter_mut().zip(smoothed.iter().zip(passage.predicted_mean)) {
+        *c = s - m;
+    }
+    for (i, s) in smoothed.iter_mut().enumerate() {
+        let row = &passage.gain[i * n..(i + 1) * n];
+        *s = row.iter().zip(&*change).fold(passage.mean[i], |sum, (&g, &c)| g.mul_add(c, sum));
+    }
+}
+
+/// Takes `smoothed` from k + 1 to k: with the mean, Sˢ_k = Tria([D_k  G_k Sˢ_{k+1}]) in square-root form (2011 Table 3),
+/// Pˢ_k = P_k + G_k (Pˢ_{k+1} − P⁻_{k+1}) G_kᵀ and its root in covariance form (2011 Table 2).
+/// `scratch` holds 4 n² + 2 n scalars.
+///
+/// # Errors
+/// A smoothed covariance that is not positive semidefinite, in covariance form.
+#[inline(always)]
+pub fn step_back<T: Real, F: Form>(
+    passage: &Passage<T>,
+    smoothed: &mut Belief<T>,
+    mut scratch: &mut [T],
+) -> Result<T::Mask, Fault> {
+    let n = smoothed.mean.len();
+    mean_back(passage, smoothed.mean, scratch);
+    if F::SQUARE_ROOT {
+        let wide = take(&mut scratch, 2 * n * n);
+        let product = take(&mut scratch, n * n);
+        multiply(product, n, passage.gain, smoothed.factor);
+        put_columns(wide, 2 * n, 0, passage.conditional, n);
+        put_columns(wide, 2 * n, n, product, n);
+        let health = tria(wide, n, 2 * n, 2 * n);
+        copy_lower(smoothed.factor, n, wide, 2 * n);
+        return lanes(health, Matrix::Smoothed);
+    }
+    let product = take(&mut scratch, n * n);
+    let scale = take(&mut scratch, n);
+    for (s, &p) in smoothed.cov.iter_mut().zip(passage.predicted_cov) {
+        *s -= p;
+    }
+    multiply(product, n, passage.gain, smoothed.cov);
+    smoothed.cov.copy_from_slice(passage.cov);
+    add_outer(smoothed.cov, n, n, product, n, passage.gain, n, n, 1.0);
+    symmetrise(smoothed.cov, n);
+    for (i, s) in scale.iter_mut().enumerate() {
+        *s = passage.cov[i * n + i];
+    }
+    smoothed.factor.copy_from_slice(smoothed.cov);
+    lanes(cholesky_scaled(smoothed.factor, n, scale), Matrix::Smoothed)
+}
+
+/// The mean of a matrix and its transpose: what rounding had made of a symmetric one.
+#[inline(always)]
+pub(super) fn symmetrise<T: Real>(p: &mut [T], n: usize) {
+    for i in 0..n {
+        for j in 0..i {
+            let mean = T::of(0.5) * (p[i * n + j] + p[j * n + i]);
+            p[i * n + j] = mean;
+            p[j * n + i] = mean;
+        }
+    }
+}

@@ -1,0 +1,12 @@
+//! Smoothers: backward passes over what a filter recorded (`spec` §6).
+//!
+//! A [`History`] records the time updates of a filter, all of them or the last L; [`History::smooth`] goes back over
+//! them (fixed interval, and fixed lag over a ring). [`FixedPoint`] carries one past state forward instead.
+
+mod back;
+mod fixed_point;
+mod history;
+
+pub use back::{Passage, mean_back, step_back};
+pub use fixed_point::FixedPoint;
+pub use history::History;

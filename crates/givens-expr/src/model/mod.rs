@@ -1,0 +1,13 @@
+//! Models of run time: what filters take, made of expressions.
+
+mod error;
+mod frame;
+mod jacobian;
+mod observation;
+mod start;
+mod transition;
+
+pub use error::ModelError;
+pub use observation::{ModelObservation, NoiseBlock, ObservationParts};
+pub use start::{ModelStart, StartParts};
+pub use transition::{ModelTransition, TransitionParts};

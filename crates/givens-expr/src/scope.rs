@@ -1,0 +1,100 @@
+//! The names that an expression may use.
+
+use std::collections::HashMap;
+
+use crate::error::ExprError;
+use crate::function::FUNCTIONS;
+use crate::graph::Node;
+use crate::hints;
+use crate::suggest::suggest;
+
+/// What a name stands for.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Meaning {
+    /// A subexpression: an input, or what a definition gave.
+    Is(Node),
+    /// A name that exists but may not stand here: why, and the remedy.
+    Forbidden(String),
+}
+
+/// The names that an expression may use, beside the functions and `pi`.
+///
+/// ```
+/// use givens_expr::{Graph, Input, Meaning, Scope, parse};
+/// let (mut graph, mut scope) = (Graph::new(), Scope::new());
+/// scope.insert("x", Meaning::Is(graph.input(Input::State(0))));
+/// scope.insert("vx", Meaning::Forbidden("a noise may not depend on the state".into()));
+/// assert!(parse(&mut graph, &scope, "x^2").is_ok());
+/// let error = parse(&mut graph, &scope, "x + vx").unwrap_err();
+/// assert_eq!(error.to_string(), "`vx` may not stand here: a noise may not depend on the state");
+/// ```
+#[derive(Clone, Debug, Default)]
+pub struct Scope {
+    names: Vec<String>,
+    meanings: HashMap<String, Meaning>,
+}
+
+impl Scope {
+    /// A scope without names.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Gives a name its meaning, and returns the one that it had before. Names of functions, `pi`, `and`, `or` and
+    /// `not` cannot be given one: [`is_reserved`](crate::is_reserved) tells them, and expressions keep reading them
+    /// as before.
+    pub fn insert(&mut self, name: impl Into<String>, meaning: Meaning) -> Option<Meaning> {
+        let name = name.into();
+        let before = self.meanings.insert(name.clone(), meaning);
+        if before.is_none() {
+            self.names.push(name);
+        }
+        before
+    }
+
+    /// The names, in the order in which they were first given.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.names.iter().map(String::as_str)
+    }
+
+    /// The meaning of a name.
+    pub fn get(&self, name: &str) -> Option<&Meaning> {
+        self.meanings.get(name)
+    }
+
+    /// The node of a name.
+    ///
+    /// # Errors
+    /// The name is unknown, forbidden, or that of a function; the error names a near one. Its span counts from the
+    /// start of the name.
+    pub fn find(&self, name: &str) -> Result<Node, ExprError> {
+        match self.meanings.get(name) {
+            Some(Meaning::Is(node)) => Ok(*node),
+            Some(Meaning::Forbidden(why)) => {
+                Err(ExprError::new(0..name.len(), format!("`{name}` may not stand here")).help(why.as_str()))
+            }
+            None => Err(self.unknown(name)),
+        }
+    }
+
+    fn unknown(&self, name: &str) -> ExprError {
+        let error = ExprError::new(0..name.len(), format!("unknown name `{name}`"));
+        if let Some(function) = FUNCTIONS.iter().find(|function| function.name == name) {
+            let message = format!("`{name}` is a function and needs its arguments");
+            return ExprError::new(0..name.len(), message).help(format!("write `{}`", function.signature));
+        }
+        if let Some(help) = hints::name(name) {
+            return error.help(help);
+        }
+        match suggest(name, self.names().chain(["pi"])) {
+            Some(near) => error.help(format!("did you mean `{near}`?")),
+            None if self.names.is_empty() => error.help("only numbers, `pi` and functions may stand here"),
+            None if self.names.len() <= 12 => {
+                let known: Vec<String> = self.names().map(|name| format!("`{name}`")).collect();
+                error.help(format!("known are {}", known.join(", ")))
+            }
+            None => error,
+        }
+    }
+}

@@ -1,0 +1,142 @@
+//! TOML as a tree in file order, each value with its span.
+
+use core::ops::Range;
+
+use toml::de::{DeTable, DeValue};
+
+use crate::findings::Findings;
+use crate::source::Source;
+
+/// A key, where it stands, and its value.
+#[derive(Clone, Debug)]
+pub(super) struct Entry {
+    pub key: String,
+    pub span: Range<usize>,
+    pub value: Value,
+}
+
+/// A value and where it stands.
+#[derive(Clone, Debug)]
+pub(super) struct Value {
+    pub kind: Kind,
+    pub span: Range<usize>,
+}
+
+/// What a value is.
+#[derive(Clone, Debug)]
+pub(super) enum Kind {
+    /// A string, and the byte of the source at which it begins if it stands there letter by letter.
+    Text(String, Option<usize>),
+    /// A number; whether it was written without a point.
+    Number(f64, bool),
+    Truth(bool),
+    /// A date or time, as written.
+    Moment(String),
+    List(Vec<Value>),
+    Table(Vec<Entry>),
+}
+
+impl Kind {
+    /// The kind in words, for "found …".
+    pub fn noun(&self) -> &'static str {
+        match self {
+            Kind::Text(..) => "a string",
+            Kind::Number(..) => "a number",
+            Kind::Truth(_) => "a truth value",
+            Kind::Moment(_) => "a date or time",
+            Kind::List(_) => "a list",
+            Kind::Table(_) => "a table",
+        }
+    }
+}
+
+impl Value {
+    /// The span of a part of a string, given in bytes of the string; the whole value where escapes hide the place.
+    pub fn within(&self, part: &Range<usize>) -> Range<usize> {
+        match self.kind {
+            Kind::Text(_, Some(start)) => start + part.start..start + part.end,
+            _ => self.span.clone(),
+        }
+    }
+}
+
+/// Reads a document; what breaks the syntax of TOML is found wrong, and there is no tree then.
+pub(super) fn read(findings: &Findings) -> Option<Vec<Entry>> {
+    let source = findings.source;
+    let (table, errors) = DeTable::parse_recoverable(&source.text);
+    if errors.is_empty() {
+        return Some(entries(table.into_inner(), source));
+    }
+    let mut last = None;
+    for error in errors {
+        let span = error.span().unwrap_or(source.text.len()..source.text.len());
+        let line = source.place(span.clone()).line;
+        // One slip makes several errors on its line.
+        if last != Some(line) {
+            let found = source.text.get(span.clone()).filter(|found| !found.trim().is_empty());
+            let found = found.map_or(String::new(), |found| format!(" at `{}`", found.lines().next().unwrap_or("")));
+            findings.wrong_help(
+                &span,
+                format!("not valid TOML{found}: {}", error.message()),
+                "strings stand in quotes, lists in [ ], tables in { } with commas between",
+            );
+        }
+        last = Some(line);
+    }
+    None
+}
+
+fn entries(table: DeTable, source: &Source) -> Vec<Entry> {
+    let mut entries: Vec<Entry> = table
+        .into_iter()
+        .map(|(key, value)| Entry {
+            span: key.span(),
+            key: key.into_inner().into_owned(),
+            value: Value { span: value.span(), kind: kind(value.span(), value.into_inner(), source) },
+        })
+        .collect();
+    entries.sort_by_key(|entry| entry.span.start);
+    entries
+}
+
+fn kind(span: Range<usize>, value: DeValue, source: &Source) -> Kind {
+    match value {
+        DeValue::String(text) => {
+            let start = verbatim(&span, &text, source);
+            Kind::Text(text.into_owned(), start)
+        }
+        DeValue::Integer(integer) => Kind::Number(whole(integer.as_str(), integer.radix()), true),
+        DeValue::Float(float) => Kind::Number(float.as_str().parse().unwrap_or(f64::NAN), false),
+        DeValue::Boolean(truth) => Kind::Truth(truth),
+        DeValue::Datetime(moment) => {
+            Kind::Moment(source.text.get(span).map_or_else(|| moment.to_string(), str::to_string))
+        }
+        DeValue::Array(list) => Kind::List(
+            list.into_iter()
+                .map(|item| Value { span: item.span(), kind: kind(item.span(), item.into_inner(), source) })
+                .collect(),
+        ),
+        DeValue::Table(table) => Kind::Table(entries(table, source)),
+    }
+}
+
+fn whole(digits: &str, radix: u32) -> f64 {
+    match radix {
+        10 => digits.parse().unwrap_or(f64::NAN),
+        _ => i128::from_str_radix(digits, radix).map_or(f64::NAN, |number| number as f64),
+    }
+}
+
+/// Where a string begins in the source, if no escape stands between.
+fn verbatim(span: &Range<usize>, text: &str, source: &Source) -> Option<usize> {
+    let raw = source.text.get(span.clone())?;
+    let quote = raw.get(..3).filter(|three| matches!(*three, "\"\"\"" | "'''")).or_else(|| raw.get(..1))?;
+    let inner = raw.strip_prefix(quote)?.strip_suffix(quote)?;
+    // The first line end of a string of several lines is no part of it.
+    let end = if quote.len() == 1 { 0 } else { inner.len() - without_line_end(inner).len() };
+    (inner.get(end..)? == text).then_some(span.start + quote.len() + end)
+}
+
+fn without_line_end(text: &str) -> &str {
+    text.strip_prefix("\r\n").or_else(|| text.strip_prefix('\n')).unwrap_or(text)
+}

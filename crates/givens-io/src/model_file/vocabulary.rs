@@ -1,0 +1,176 @@
+//! The names that expressions may use, and where each may stand.
+
+use std::collections::BTreeSet;
+
+use givens_expr::{ExprError, Graph, Input, Meaning, Node, Scope, names, parse};
+
+use super::document::{Entry, Kind, Value};
+use crate::findings::Findings;
+
+/// Where an expression stands; this decides what it may depend on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Role {
+    Let,
+    Transition,
+    ProcessNoise,
+    Measure,
+    MeasurementNoise,
+    Start,
+    /// Evaluated once, when the model is read.
+    Fixed,
+}
+
+impl Role {
+    /// Why a quantity may not stand here, and the remedy; none if it may.
+    fn forbids(self, input: Input) -> Option<&'static str> {
+        Some(match (self, input) {
+            (_, Input::Parameter(_)) => return None,
+            (Role::Fixed, _) => "only numbers and parameters may, since this is evaluated before any data",
+            (_, Input::Time | Input::Control(_)) => return None,
+            (Role::Let | Role::Transition, Input::State(_) | Input::Step) => return None,
+            (Role::Measure, Input::State(_)) | (Role::ProcessNoise, Input::Step) | (Role::Start, Input::Measure(_)) => {
+                return None;
+            }
+            (Role::Measure | Role::MeasurementNoise | Role::Start, Input::Step) => {
+                "a measurement has no step; only transition and noise_cov depend on `dt`"
+            }
+            (Role::ProcessNoise | Role::MeasurementNoise, Input::State(_)) => {
+                "a noise covariance may not depend on the state; use parameters, `t` and controls"
+            }
+            (Role::Start, Input::State(_)) => "`start` finds the states from measures; use their names",
+            (_, Input::Measure(_)) => "measures may be named in `start` only",
+        })
+    }
+}
+
+/// Stands for a name whose definition was found wrong, so that its users are not found wrong as well.
+const BROKEN: Input = Input::Measure(u32::MAX);
+
+/// What a name stands for whose definition was found wrong.
+pub(super) fn broken(graph: &mut Graph) -> Node {
+    graph.input(BROKEN)
+}
+
+/// All names of a model file with what they stand for.
+#[derive(Debug, Default)]
+pub(super) struct Vocabulary {
+    words: Vec<(String, Node)>,
+    /// Names of measures, for `start`: each with its place in the stack, or none if sensors share it.
+    measures: Vec<(String, Option<Node>)>,
+}
+
+impl Vocabulary {
+    /// Gives a name its meaning; a definition that was found wrong is none.
+    pub fn define(&mut self, graph: &mut Graph, name: &str, node: Option<Node>) {
+        let node = node.unwrap_or_else(|| broken(graph));
+        self.words.push((name.to_string(), node));
+    }
+
+    /// Gives `start` the name of a measure; a name that two sensors share is none's.
+    pub fn define_measure(&mut self, graph: &mut Graph, name: &str, index: usize) {
+        if let Some((_, shared)) = self.measures.iter_mut().find(|(other, _)| other == name) {
+            *shared = None;
+        } else {
+            self.measures.push((name.to_string(), Some(graph.input(Input::Measure(index as u32)))));
+        }
+    }
+
+    /// The names that may stand in a role, and why the others may not.
+    pub fn scope(&self, graph: &Graph, role: Role) -> Scope {
+        let mut scope = Scope::new();
+        for (name, node) in &self.words {
+            scope.insert(name.as_str(), meaning(role, *node, &graph.inputs_of(*node)));
+        }
+        for (name, node) in self.measures.iter().filter(|_| role == Role::Start) {
+            let taken = matches!(scope.get(name), Some(Meaning::Is(_)));
+            let meaning = match node {
+                _ if taken => Meaning::Forbidden("it is both a measure and a parameter or of [let]; rename one".into()),
+                Some(node) => Meaning::Is(*node),
+                None => Meaning::Forbidden("several sensors have this measure; give it different names".into()),
+            };
+            scope.insert(name.as_str(), meaning);
+        }
+        scope
+    }
+}
+
+fn meaning(role: Role, node: Node, inputs: &BTreeSet<Input>) -> Meaning {
+    if inputs.contains(&BROKEN) {
+        return Meaning::Is(node);
+    }
+    match inputs.iter().find_map(|&input| role.forbids(input)) {
+        Some(why) => Meaning::Forbidden(why.into()),
+        None => Meaning::Is(node),
+    }
+}
+
+/// Reads a number, or an expression in the names of `scope`; what is wrong is found so.
+pub(super) fn expression(
+    findings: &Findings,
+    graph: &mut Graph,
+    scope: &Scope,
+    value: &Value,
+    what: &str,
+) -> Option<Node> {
+    expression_by(parse, findings, graph, scope, value, what)
+}
+
+/// How a text becomes a node.
+type Read = fn(&mut Graph, &Scope, &str) -> Result<Node, ExprError>;
+
+/// [`expression`] by another reader of text.
+pub(super) fn expression_by(
+    read: Read,
+    findings: &Findings,
+    graph: &mut Graph,
+    scope: &Scope,
+    value: &Value,
+    what: &str,
+) -> Option<Node> {
+    match &value.kind {
+        Kind::Number(number, _) if number.is_finite() => Some(graph.constant(*number)),
+        Kind::Number(..) => {
+            findings.wrong_help(&value.span, format!("{what} is not a finite number"), "write a finite number");
+            None
+        }
+        Kind::Text(text, _) if names(text).any(|(_, name)| is_broken(graph, scope, name)) => None,
+        Kind::Text(text, _) => match read(graph, scope, text) {
+            Ok(node) => Some(node),
+            Err(error) => {
+                findings.wrong_maybe(&value.within(&error.span), format!("{} in {what}", error.message), error.help);
+                None
+            }
+        },
+        other => {
+            let message = format!("{what} is a number or an expression; found {}", other.noun());
+            findings.wrong_help(&value.span, message, "write a number, or an expression in quotes");
+            None
+        }
+    }
+}
+
+fn is_broken(graph: &Graph, scope: &Scope, name: &str) -> bool {
+    matches!(scope.get(name), Some(Meaning::Is(node)) if graph.inputs_of(*node).contains(&BROKEN))
+}
+
+/// The controls that expressions below an entry use, in order of first use.
+pub(super) fn controls(entries: &[Entry], found: &mut Vec<String>) {
+    for entry in entries {
+        controls_in(&entry.value, found);
+    }
+}
+
+fn controls_in(value: &Value, found: &mut Vec<String>) {
+    match &value.kind {
+        Kind::Text(text, _) => {
+            for (_, name) in names(text) {
+                if name.starts_with("u_") && !found.iter().any(|other| other == name) {
+                    found.push(name.to_string());
+                }
+            }
+        }
+        Kind::List(items) => items.iter().for_each(|item| controls_in(item, found)),
+        Kind::Table(entries) => controls(entries, found),
+        Kind::Number(..) | Kind::Truth(_) | Kind::Moment(_) => {}
+    }
+}

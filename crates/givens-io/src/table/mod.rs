@@ -1,0 +1,125 @@
+//! Tables of measurements and of true states, as CSV.
+
+mod cell;
+mod check;
+mod header;
+mod row;
+mod sheet;
+mod time;
+mod truth;
+
+pub use time::Calendar;
+pub use truth::{Truth, read_truth};
+
+use crate::error::InputErrors;
+use crate::findings::Findings;
+use crate::model_file::Model;
+use crate::source::Source;
+
+/// The rows of a table, track by track.
+#[derive(Clone, Debug)]
+pub struct Tracks {
+    /// The tracks in the order in which the table first names them; a table without `track_id` is one track.
+    pub tracks: Vec<Track>,
+    /// Columns that the model does not use.
+    pub ignored: Vec<String>,
+    /// Whether the table has the column `track_id`.
+    pub has_track_id: bool,
+    /// Whether the table has the column `sensor`.
+    pub has_sensor: bool,
+}
+
+/// One track: rows in time order.
+#[derive(Clone, Debug)]
+pub struct Track {
+    /// The cell of `track_id`.
+    pub id: Option<String>,
+    /// The time at which the initial belief holds: `[state] time`, or the first row's.
+    pub start: f64,
+    /// The rows. Never empty.
+    pub rows: Vec<Row>,
+    /// The instant from which the times of the track count, if the table gives them in RFC 3339.
+    pub origin: Option<Calendar>,
+}
+
+/// One row of a table.
+#[derive(Clone, Debug)]
+pub struct Row {
+    /// Line in the file, from one.
+    pub line: usize,
+    /// Row over the whole file, from zero: the order of the output.
+    pub index: usize,
+    /// Time in seconds.
+    pub time: f64,
+    /// Time as the table gives it.
+    pub time_text: String,
+    /// The sensor that the row names, as an index into [`Model::sensors`].
+    pub sensor: Option<usize>,
+    /// The measures of all sensors in model order, length d; NaN where the row has none.
+    pub z: Vec<f64>,
+    /// The controls in the order of [`Model::controls`].
+    pub u: Vec<f64>,
+}
+
+impl Row {
+    /// Whether the row brings a measure; one without any asks for the prediction at its time.
+    pub fn measured(&self) -> bool {
+        self.z.iter().any(|value| !value.is_nan())
+    }
+}
+
+impl Track {
+    /// A time of this track in words: RFC 3339 if the table's times are, else seconds.
+    pub fn time_text(&self, time: f64) -> String {
+        match self.origin.and_then(|origin| origin.after(time)) {
+            Some(instant) => instant.to_string(),
+            None => time.to_string(),
+        }
+    }
+
+    /// Reads a time on the axis of this track: seconds, or RFC 3339 if the table's times are.
+    ///
+    /// # Errors
+    /// What is wrong with the text, in words.
+    pub fn parse_time(&self, text: &str) -> Result<f64, String> {
+        match (text.trim().parse::<f64>(), self.origin) {
+            (Ok(seconds), _) if seconds.is_finite() => Ok(seconds),
+            (Ok(_), _) => Err(format!("`{text}` is not a finite time")),
+            (Err(_), Some(origin)) => Calendar::parse(text.trim()).map(|instant| instant.since(origin)),
+            (Err(_), None) => Err(format!("`{text}` is not a time in seconds, as the table's are")),
+        }
+    }
+}
+
+/// Reads the measurements for a model from a CSV file, or from standard input for `-`.
+///
+/// Times are seconds, or RFC 3339. The latter count from `[state] time` if that is such a time too, else from the
+/// first row of each track; a number of `[state] time` then places the belief that many seconds after the first row.
+///
+/// # Errors
+/// Everything that is wrong with the table, by line, column and name.
+pub fn read_tracks(path: &str, model: &Model) -> Result<Tracks, InputErrors> {
+    tracks(&Source::read(path)?, model, true)
+}
+
+/// Reads a table that need only bring times, and the controls of the model if it has some: `z` is all NaN.
+///
+/// # Errors
+/// As [`read_tracks`].
+pub fn read_times(path: &str, model: &Model) -> Result<Tracks, InputErrors> {
+    tracks(&Source::read(path)?, model, false)
+}
+
+/// [`read_tracks`] from a text; errors call it `name`.
+///
+/// # Errors
+/// As [`read_tracks`].
+pub fn parse_tracks(text: &str, name: &str, model: &Model) -> Result<Tracks, InputErrors> {
+    tracks(&Source::new(name, text.to_string()), model, true)
+}
+
+fn tracks(source: &Source, model: &Model, measured: bool) -> Result<Tracks, InputErrors> {
+    let findings = Findings::new(source);
+    let tracks = row::tracks(&findings, model, measured);
+    findings.finish(tracks)
+}

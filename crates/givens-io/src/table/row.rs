@@ -1,0 +1,179 @@
+//! Rows: cells become measures and controls, rows become tracks.
+
+use std::collections::HashMap;
+
+use givens_expr::suggest;
+
+use super::cell::{Cell, number, short};
+use super::header::{self, Columns};
+use super::sheet::{Fields, Sheet};
+use super::time::{Time, time};
+use super::{Row, Track, Tracks, check};
+use crate::findings::{Findings, list};
+use crate::model_file::Model;
+
+/// A row with its time as the table gives it, and the byte where it begins.
+pub(super) struct Raw {
+    pub row: Row,
+    pub time: Time,
+    pub start: usize,
+}
+
+/// Reads a whole table.
+pub(super) fn tracks(findings: &Findings, model: &Model, measured: bool) -> Option<Tracks> {
+    let known = if measured { "time and the measures" } else { "time" };
+    let mut sheet = Sheet::open(findings, known)?;
+    let columns = header::columns(&sheet, model, measured)?;
+    let mut ids: Vec<Option<String>> = Vec::new();
+    let mut rows: Vec<Vec<Raw>> = Vec::new();
+    let mut known: HashMap<String, usize> = HashMap::new();
+    let (mut before, mut index) = (None, 0);
+    while let Some(fields) = sheet.next_row() {
+        let raw = row(findings, &fields, &columns, model, before, index);
+        index += 1;
+        let track = match columns.track {
+            Some(column) => track_id(findings, &fields, column),
+            None => Some(""),
+        };
+        let (Some(raw), Some(id)) = (raw, track) else { continue };
+        before = before.or(Some(raw.time));
+        let track = if let Some(&track) = known.get(id) {
+            track
+        } else {
+            known.insert(id.to_string(), rows.len());
+            ids.push(columns.track.map(|_| id.to_string()));
+            rows.push(Vec::new());
+            rows.len() - 1
+        };
+        if let Some(rows) = rows.get_mut(track) {
+            rows.push(raw);
+        }
+    }
+    if index == 0 && findings.none() {
+        let error = findings.source.whole("the table has a header but no rows");
+        findings.push(error.with_help("each row below the header is one measurement"));
+    }
+    let mut tracks = Vec::with_capacity(rows.len());
+    for (id, rows) in ids.into_iter().zip(rows) {
+        tracks.push(check::track(findings, model, id, rows, columns.time)?);
+    }
+    let (has_track_id, has_sensor) = (columns.track.is_some(), columns.sensor.is_some());
+    Some(Tracks { tracks, ignored: columns.ignored, has_track_id, has_sensor })
+}
+
+/// The cell of `track_id`.
+pub(super) fn track_id<'f>(findings: &Findings, fields: &'f Fields, column: usize) -> Option<&'f str> {
+    let id = fields.text(column);
+    if id.is_empty() {
+        let help = "name its track, or remove the column if all rows are of one";
+        findings.wrong_help(&fields.span(column), "a row has no `track_id`", help);
+        return None;
+    }
+    Some(id)
+}
+
+fn row(
+    findings: &Findings,
+    fields: &Fields,
+    columns: &Columns,
+    model: &Model,
+    before: Option<Time>,
+    index: usize,
+) -> Option<Raw> {
+    let time = time(findings, fields, columns.time, before);
+    let u: Vec<f64> = columns
+        .controls
+        .iter()
+        .filter_map(|&column| match number(findings, fields, column) {
+            Cell::Number(value) => Some(value),
+            Cell::Wrong => None,
+            Cell::Empty => {
+                let message = format!("the control {} is missing", fields.column(column));
+                findings.wrong_help(&fields.span(column), message, "every row states its controls");
+                None
+            }
+        })
+        .collect();
+    let sensor = sensor(findings, fields, columns, model).ok()?;
+    let z = measures(findings, fields, columns, model, sensor);
+    let time = time?;
+    let row = Row {
+        line: fields.line(),
+        index,
+        // The seconds of a calendar time are known when its track is.
+        time: if let Time::Seconds(seconds) = time { seconds } else { 0.0 },
+        time_text: fields.text(columns.time).to_string(),
+        sensor,
+        z,
+        u,
+    };
+    Some(Raw { row, time, start: fields.start() })
+}
+
+/// What was wrong was found so.
+struct Found;
+
+/// The sensor that a row names, if it names one; a name that cannot stand is found wrong.
+fn sensor(findings: &Findings, fields: &Fields, columns: &Columns, model: &Model) -> Result<Option<usize>, Found> {
+    let Some((column, name)) = columns.sensor.map(|column| (column, fields.text(column))) else { return Ok(None) };
+    if name.is_empty() {
+        return Ok(None);
+    }
+    let found = model.sensors.iter().position(|sensor| sensor.name == name);
+    let names = || model.sensors.iter().map(|sensor| sensor.name.as_str());
+    let Some(index) = found else {
+        let help = match suggest(name, names()) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None => format!("the model has {}", list(names())),
+        };
+        findings.wrong_help(&fields.span(column), format!("unknown sensor `{}`", short(name)), help);
+        return Err(Found);
+    };
+    Ok(Some(index))
+}
+
+/// The measures that a row brings; values that its sensor does not have are found wrong.
+fn measures(
+    findings: &Findings,
+    fields: &Fields,
+    columns: &Columns,
+    model: &Model,
+    sensor: Option<usize>,
+) -> Vec<f64> {
+    let mut z = vec![f64::NAN; columns.measures.len()];
+    let own = sensor.and_then(|index| model.sensors.get(index));
+    let mut told = Vec::new();
+    for (index, (&column, &shared)) in columns.measures.iter().zip(&columns.shared).enumerate() {
+        let Some(column) = column else { continue };
+        if own.is_some_and(|own| !own.measures.contains(&index)) {
+            let other = own.is_some_and(|own| own.columns.iter().any(|name| fields.name(column) == name));
+            if !other && !fields.text(column).is_empty() && !told.contains(&column) {
+                told.push(column);
+                let name = own.map_or("", |own| own.name.as_str());
+                let message = format!("{} is no measure of the sensor `{name}` of this row", fields.column(column));
+                findings.wrong_help(&fields.span(column), message, "give each sensor a row of its own");
+            }
+            continue;
+        }
+        if shared && own.is_none() {
+            if !fields.text(column).is_empty() && !told.contains(&column) {
+                told.push(column);
+                let message = format!("{} belongs to several sensors, and the row names none", fields.column(column));
+                findings.wrong_help(&fields.span(column), message, "fill in its `sensor`");
+            }
+            continue;
+        }
+        if let (Cell::Number(value), Some(slot)) = (number(findings, fields, column), z.get_mut(index)) {
+            *slot = value;
+        }
+    }
+    if let (Some(own), Some(column)) = (own, columns.sensor) {
+        let absent = own.measures.clone().all(|index| columns.measures.get(index).is_none_or(Option::is_none));
+        if absent && columns.measures.iter().any(Option::is_some) {
+            let message = format!("the table has no columns of the sensor `{}`", own.name);
+            let help = format!("its measures are {}", list(own.columns.iter().map(String::as_str)));
+            findings.wrong_help(&fields.span(column), message, help);
+        }
+    }
+    z
+}

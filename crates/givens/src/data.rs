@@ -1,0 +1,138 @@
+//! Measurements of one trajectory.
+
+/// One row of a trajectory: a time, the measurement there, and the controls that hold from then on.
+#[derive(Clone, Copy, Debug)]
+pub struct Row<'a> {
+    /// When.
+    pub time: f64,
+    /// The measurement, length d; NaN where a component is missing.
+    pub z: &'a [f64],
+    /// Controls.
+    pub u: &'a [f64],
+}
+
+/// The measurements of one trajectory in order of time.
+///
+/// ```
+/// let mut data = givens::Data::new(1);
+/// data.push(0.5, &[3.0])?;
+/// data.push(1.0, &[f64::NAN])?; // nothing measured: the row asks for the prediction
+/// assert!(data.push(0.7, &[3.0]).is_err());
+/// # Ok::<(), givens::DataError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Data {
+    measures: usize,
+    controls: usize,
+    time: Vec<f64>,
+    z: Vec<f64>,
+    u: Vec<f64>,
+}
+
+/// Why a row was refused.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum DataError {
+    /// A time that is not finite, or before the row above.
+    Time {
+        /// The row, from zero.
+        row: usize,
+        /// Its time.
+        time: f64,
+    },
+    /// An infinite measurement.
+    Infinite {
+        /// The row, from zero.
+        row: usize,
+        /// The component, from zero.
+        component: usize,
+    },
+    /// A measurement or control of the wrong length.
+    Length {
+        /// The row, from zero.
+        row: usize,
+        /// The length it must have.
+        expected: usize,
+        /// The length it has.
+        found: usize,
+    },
+}
+
+impl std::fmt::Display for DataError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match *self {
+            Self::Time { row, time } => {
+                write!(f, "row {row}: time {time} is before the row above, or not finite; rows stand in time order")
+            }
+            Self::Infinite { row, component } => {
+                write!(f, "row {row}: component {component} is infinite; a missing component is NaN")
+            }
+            Self::Length { row, expected, found } => write!(f, "row {row}: expected length {expected}, found {found}"),
+        }
+    }
+}
+
+impl std::error::Error for DataError {}
+
+impl Data {
+    /// No rows yet, of measurements of length `measures`.
+    pub fn new(measures: usize) -> Self {
+        Self::with_controls(measures, 0)
+    }
+
+    /// No rows yet, of measurements and controls of these lengths.
+    pub fn with_controls(measures: usize, controls: usize) -> Self {
+        Self { measures, controls, time: Vec::new(), z: Vec::new(), u: Vec::new() }
+    }
+
+    /// Adds a row; NaN marks a missing component.
+    ///
+    /// # Errors
+    /// A row out of time order, of the wrong length, or with an infinite number.
+    pub fn push(&mut self, time: f64, z: &[f64]) -> Result<(), DataError> {
+        self.push_controlled(time, z, &[])
+    }
+
+    /// Adds a row with controls, which hold from its time to the next row's.
+    ///
+    /// # Errors
+    /// As [`push`](Self::push).
+    pub fn push_controlled(&mut self, time: f64, z: &[f64], u: &[f64]) -> Result<(), DataError> {
+        let row = self.time.len();
+        for (expected, found) in [(self.measures, z.len()), (self.controls, u.len())] {
+            if expected != found {
+                return Err(DataError::Length { row, expected, found });
+            }
+        }
+        if !time.is_finite() || self.time.last().is_some_and(|&last| time < last) {
+            return Err(DataError::Time { row, time });
+        }
+        if let Some(component) = z.iter().position(|z| z.is_infinite()) {
+            return Err(DataError::Infinite { row, component });
+        }
+        self.time.push(time);
+        self.z.extend_from_slice(z);
+        self.u.extend_from_slice(u);
+        Ok(())
+    }
+
+    /// Number of rows.
+    pub fn len(&self) -> usize {
+        self.time.len()
+    }
+
+    /// No rows.
+    pub fn is_empty(&self) -> bool {
+        self.time.is_empty()
+    }
+
+    /// The rows.
+    pub fn rows(&self) -> impl Iterator<Item = Row<'_>> + Clone {
+        let (d, c) = (self.measures, self.controls);
+        let row = move |(k, &time): (usize, &f64)| Row {
+            time,
+            z: &self.z[k * d..(k + 1) * d],
+            u: &self.u[k * c..(k + 1) * c],
+        };
+        self.time.iter().enumerate().map(row)
+    }
+}

@@ -1,0 +1,143 @@
+//! What a run over a trajectory learnt, row by row.
+
+/// The estimates of a trajectory: one row for each row of data, columns named as in the command's JSON lines.
+///
+/// All numbers of a kind stand in one array, row after row; the accessors cut out one row.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Estimates {
+    pub(crate) states: usize,
+    pub(crate) measures: usize,
+    pub(crate) smoothed: bool,
+    /// Time of every row.
+    pub time: Vec<f64>,
+    /// Filtered or smoothed means, rows × n.
+    pub mean: Vec<f64>,
+    /// Filtered or smoothed covariances, rows × n × n.
+    pub cov: Vec<f64>,
+    /// Filtered means of a smoother, rows × n; empty for a filter.
+    pub filtered_mean: Vec<f64>,
+    /// Filtered covariances of a smoother, rows × n × n; empty for a filter.
+    pub filtered_cov: Vec<f64>,
+    /// Predicted means, rows × n.
+    pub predicted_mean: Vec<f64>,
+    /// Predicted covariances, rows × n × n.
+    pub predicted_cov: Vec<f64>,
+    /// Innovations, rows × d; NaN where a component was missing.
+    pub innovation: Vec<f64>,
+    /// Innovation covariances, rows × d × d; NaN where a component was missing.
+    pub innovation_cov: Vec<f64>,
+    /// νᵀ P_zz⁻¹ ν of every row; NaN where nothing was measured.
+    pub nis: Vec<f64>,
+    /// Components that were there, of every row.
+    pub nis_dof: Vec<usize>,
+    /// Log-likelihood of every row's measurement; 0 where nothing was measured.
+    pub log_likelihood: Vec<f64>,
+}
+
+impl Estimates {
+    pub(crate) fn new(states: usize, measures: usize, smoothed: bool) -> Self {
+        Self { states, measures, smoothed, ..Self::default() }
+    }
+
+    /// Drops what stands behind the first `rows` rows.
+    pub(crate) fn truncate(&mut self, rows: usize) {
+        let (n, d) = (self.states, self.measures);
+        self.time.truncate(rows);
+        self.nis.truncate(rows);
+        self.nis_dof.truncate(rows);
+        self.log_likelihood.truncate(rows);
+        for of in [&mut self.mean, &mut self.filtered_mean, &mut self.predicted_mean] {
+            of.truncate(rows * n);
+        }
+        for of in [&mut self.cov, &mut self.filtered_cov, &mut self.predicted_cov] {
+            of.truncate(rows * n * n);
+        }
+        self.innovation.truncate(rows * d);
+        self.innovation_cov.truncate(rows * d * d);
+    }
+
+    /// Number of rows.
+    pub fn len(&self) -> usize {
+        self.time.len()
+    }
+
+    /// No rows.
+    pub fn is_empty(&self) -> bool {
+        self.time.is_empty()
+    }
+
+    /// Whether `mean` and `cov` are smoothed ones.
+    pub fn is_smoothed(&self) -> bool {
+        self.smoothed
+    }
+
+    /// Length n of the state.
+    pub fn states(&self) -> usize {
+        self.states
+    }
+
+    /// Length d of the measurement, all sensors together.
+    pub fn measures(&self) -> usize {
+        self.measures
+    }
+
+    /// Log-likelihood of the whole trajectory.
+    pub fn total_log_likelihood(&self) -> f64 {
+        self.log_likelihood.iter().sum()
+    }
+
+    fn vector<'a>(&self, of: &'a [f64], row: usize) -> &'a [f64] {
+        &of[row * self.states..(row + 1) * self.states]
+    }
+
+    fn matrix<'a>(&self, of: &'a [f64], row: usize) -> &'a [f64] {
+        let square = self.states * self.states;
+        &of[row * square..(row + 1) * square]
+    }
+
+    /// Mean of a row, length n.
+    pub fn mean(&self, row: usize) -> &[f64] {
+        self.vector(&self.mean, row)
+    }
+
+    /// Covariance of a row, n × n.
+    pub fn cov(&self, row: usize) -> &[f64] {
+        self.matrix(&self.cov, row)
+    }
+
+    /// Standard deviation of component `i` of a row.
+    pub fn std(&self, row: usize, i: usize) -> f64 {
+        self.cov(row)[i * self.states + i].max(0.0).sqrt()
+    }
+
+    /// Filtered mean of a row, length n.
+    pub fn filtered_mean(&self, row: usize) -> &[f64] {
+        self.vector(if self.smoothed { &self.filtered_mean } else { &self.mean }, row)
+    }
+
+    /// Filtered covariance of a row, n × n.
+    pub fn filtered_cov(&self, row: usize) -> &[f64] {
+        self.matrix(if self.smoothed { &self.filtered_cov } else { &self.cov }, row)
+    }
+
+    /// Predicted mean of a row, length n.
+    pub fn predicted_mean(&self, row: usize) -> &[f64] {
+        self.vector(&self.predicted_mean, row)
+    }
+
+    /// Predicted covariance of a row, n × n.
+    pub fn predicted_cov(&self, row: usize) -> &[f64] {
+        self.matrix(&self.predicted_cov, row)
+    }
+
+    /// Innovation of a row, length d; NaN where a component was missing.
+    pub fn innovation(&self, row: usize) -> &[f64] {
+        &self.innovation[row * self.measures..(row + 1) * self.measures]
+    }
+
+    /// Innovation covariance of a row, d × d; NaN where a component was missing.
+    pub fn innovation_cov(&self, row: usize) -> &[f64] {
+        let square = self.measures * self.measures;
+        &self.innovation_cov[row * square..(row + 1) * square]
+    }
+}

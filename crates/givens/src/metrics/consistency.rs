@@ -1,0 +1,67 @@
+//! Whether a filter's innovations are as large as it says they are.
+
+use super::chi_squared::chi_squared_band;
+use crate::Estimates;
+
+/// The NIS of a run against its χ² band.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Consistency {
+    /// Mean of NIS per degree of freedom: 1 for a filter that is right.
+    pub ratio: f64,
+    /// Central 95 % band of that mean, for this many degrees of freedom.
+    pub band: (f64, f64),
+    /// Degrees of freedom, of all rows together.
+    pub dof: usize,
+}
+
+/// What the mean NIS says, in a word.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// Nothing was measured.
+    Unknown,
+    /// Within its band.
+    Consistent,
+    /// Above: the innovations are larger than the filter expects.
+    Overconfident,
+    /// Below: they are smaller.
+    Underconfident,
+}
+
+impl Consistency {
+    /// Of a run over one trajectory, or of several together.
+    pub fn of<'a>(runs: impl IntoIterator<Item = &'a Estimates>) -> Self {
+        let (mut nis, mut dof) = (0.0, 0);
+        for est in runs {
+            dof += est.nis_dof.iter().sum::<usize>();
+            nis += est.nis.iter().filter(|x| !x.is_nan()).sum::<f64>();
+        }
+        let k = dof as f64;
+        let (low, high) = chi_squared_band(k);
+        Self { ratio: nis / k, band: (low / k, high / k), dof }
+    }
+
+    /// The verdict on the mean NIS.
+    pub fn verdict(&self) -> Verdict {
+        match (self.dof, self.ratio) {
+            (0, _) => Verdict::Unknown,
+            (_, ratio) if ratio > self.band.1 => Verdict::Overconfident,
+            (_, ratio) if ratio < self.band.0 => Verdict::Underconfident,
+            _ => Verdict::Consistent,
+        }
+    }
+}
+
+impl std::fmt::Display for Consistency {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let (low, high) = self.band;
+        let mean = |f: &mut std::fmt::Formatter<'_>, word: &str| {
+            write!(f, "{word}: mean NIS {:.3} per degree of freedom, 95 % band {low:.3} to {high:.3}", self.ratio)
+        };
+        match self.verdict() {
+            Verdict::Unknown => write!(f, "nothing was measured"),
+            Verdict::Consistent => mean(f, "consistent"),
+            Verdict::Overconfident => mean(f, "overconfident (innovations larger than expected)"),
+            Verdict::Underconfident => mean(f, "underconfident (innovations smaller than expected)"),
+        }
+    }
+}

@@ -1,0 +1,9 @@
+//! How good an estimate is: against a truth, and against itself.
+
+mod accuracy;
+mod chi_squared;
+mod consistency;
+
+pub use accuracy::{Accuracy, Truth, nees};
+pub use chi_squared::{chi_squared_band, chi_squared_cdf, chi_squared_quantile};
+pub use consistency::{Consistency, Verdict};

@@ -1,0 +1,65 @@
+//! Methods of run time: the rules made of points are data, so all of them share one compiled filter.
+
+use crate::filter::{Block, Form, Method};
+use crate::rule::{Centre, Cubature3, Cubature5, GaussHermite, Pairs, PointRule, Rule, RuleError, Unscented};
+use core::marker::PhantomData;
+
+/// Any rule that is made of points.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum AnyPoints {
+    Cubature3(Cubature3),
+    Cubature5(Cubature5),
+    Unscented(Unscented),
+    GaussHermite(GaussHermite),
+}
+
+macro_rules! each {
+    ($self:ident, $rule:ident => $body:expr) => {
+        match $self {
+            AnyPoints::Cubature3($rule) => $body,
+            AnyPoints::Cubature5($rule) => $body,
+            AnyPoints::Unscented($rule) => $body,
+            AnyPoints::GaussHermite($rule) => $body,
+        }
+    };
+}
+
+impl PointRule for AnyPoints {
+    fn check(&self, n: usize) -> Result<(), RuleError> {
+        each!(self, rule => PointRule::check(rule, n))
+    }
+    fn centre(&self, n: usize) -> Option<Centre> {
+        each!(self, rule => rule.centre(n))
+    }
+    fn pairs(&self, n: usize) -> Pairs {
+        each!(self, rule => rule.pairs(n))
+    }
+    fn pair(&self, l: usize, xi: &mut [f64]) -> f64 {
+        each!(self, rule => rule.pair(l, xi))
+    }
+}
+
+/// A method from its parts.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Parts<R, F> {
+    rule: R,
+    block: Block,
+    form: PhantomData<F>,
+}
+
+impl<R, F> Parts<R, F> {
+    pub fn new(rule: R, block: Block) -> Self {
+        Self { rule, block, form: PhantomData }
+    }
+}
+
+impl<R: Rule, F: Form> Method for Parts<R, F> {
+    type Rule = R;
+    type Form = F;
+    fn rule(&self) -> R {
+        self.rule
+    }
+    fn block(&self) -> Block {
+        self.block
+    }
+}

@@ -1,0 +1,251 @@
+//! From a method's name and the settings beside it to the parts of a filter.
+
+use super::choice::{Choice, FormName, RuleName};
+use super::entry::{Entry, find, names};
+use crate::filter::Block;
+use crate::rule::{CentralDifference, GaussHermite, Unscented};
+
+/// The value of a setting.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Value {
+    /// A number.
+    Number(f64),
+    /// A word.
+    Word(String),
+}
+
+impl std::fmt::Display for Value {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Value::Number(x) => x.fmt(f),
+            Value::Word(word) => word.fmt(f),
+        }
+    }
+}
+
+impl From<&str> for Value {
+    /// A number if it reads as one, else a word.
+    fn from(text: &str) -> Self {
+        text.trim().parse().map_or_else(|_| Value::Word(text.trim().to_owned()), Value::Number)
+    }
+}
+
+/// A part or an option that was set beside a method's name.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Setting {
+    /// Its name.
+    pub key: String,
+    /// Its value.
+    pub value: Value,
+}
+
+/// Why a method or a setting is refused.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SettingError {
+    /// Which of the settings; `None`: the method's name.
+    pub setting: Option<usize>,
+    /// The setting is a sound one that this method does not read; a caller may drop it instead.
+    pub unread: bool,
+    /// What is wrong.
+    pub message: String,
+    /// The way out.
+    pub help: Option<String>,
+}
+
+impl std::fmt::Display for SettingError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        self.message.fmt(f)?;
+        self.help.as_ref().map_or(Ok(()), |help| write!(f, " ({help})"))
+    }
+}
+
+impl std::error::Error for SettingError {}
+
+/// A part or option, and the method that reads it.
+#[derive(Clone, Copy, Debug)]
+pub struct OptionInfo {
+    /// Its name.
+    pub key: &'static str,
+    /// What it is, with its default.
+    pub about: &'static str,
+    /// The rule that reads it; `None`: a part.
+    pub rule: Option<RuleName>,
+}
+
+/// Every part and option of this version.
+pub const OPTIONS: &[OptionInfo] = &[
+    OptionInfo { key: "rule", about: "how expectations are computed", rule: None },
+    OptionInfo { key: "form", about: "covariance | square-root", rule: None },
+    OptionInfo {
+        key: "update",
+        about: "square root: joint (2010 eq 36, default) | separate (2009 Appendix B)",
+        rule: None,
+    },
+    OptionInfo { key: "time_update", about: "transition", rule: None },
+    OptionInfo { key: "alpha", about: "spread of the points (1)", rule: Some(RuleName::Unscented) },
+    OptionInfo { key: "beta", about: "added to the centre's weight (0)", rule: Some(RuleName::Unscented) },
+    OptionInfo { key: "kappa", about: "the plain transform's parameter (3 - n)", rule: Some(RuleName::Unscented) },
+    OptionInfo { key: "eta", about: "step of the differences (sqrt 3)", rule: Some(RuleName::CentralDifference) },
+    OptionInfo { key: "points", about: "points per axis (3)", rule: Some(RuleName::GaussHermite) },
+];
+
+/// The methods of continuous models, that a later version brings.
+const CONTINUOUS: &[&str] = &["cd-", "acd-", "sr-cd-", "sr-acd-", "lskf"];
+
+/// Chooses a method by name and sets its parts and options.
+///
+/// ```
+/// use givens::registry::{Setting, Value, resolve};
+/// let kappa = Setting { key: "kappa".into(), value: Value::Number(0.5) };
+/// let choice = resolve("sr-ukf", &[kappa.clone()])?;
+/// assert_eq!(choice.unscented.kappa, Some(0.5));
+/// assert!(resolve("sr-ckf", &[kappa]).is_err_and(|error| error.unread));
+/// # Ok::<(), givens::registry::SettingError>(())
+/// ```
+///
+/// # Errors
+/// An unknown name, key or word, a value of the wrong kind or out of its range, an option that no part reads.
+pub fn resolve(method: &str, settings: &[Setting]) -> Result<Choice, SettingError> {
+    let Some(entry) = find(method) else { return Err(unknown_method(method)) };
+    let mut choice = preset(entry);
+    let mut block = None;
+    for (at, setting) in settings.iter().enumerate() {
+        match setting.key.as_str() {
+            "rule" => choice.rule = word(at, setting, RuleName::WORDS, RuleName::parse)?,
+            "form" => choice.form = word(at, setting, FormName::WORDS, FormName::parse)?,
+            "time_update" => {
+                word(at, setting, &["transition"], |word| (word == "transition").then_some(()))?;
+            }
+            "update" => {
+                let parse = |word: &str| match word {
+                    "joint" => Some(Block::Joint),
+                    "separate" => Some(Block::Separate),
+                    _ => None,
+                };
+                block = Some((at, word(at, setting, &["joint", "separate"], parse)?));
+            }
+            _ => {}
+        }
+    }
+    if let Some((at, block)) = block {
+        if choice.form == FormName::Covariance {
+            return Err(unread(at, "update", method, "it belongs to the square-root form"));
+        }
+        choice.block = block;
+    }
+    for (at, setting) in settings.iter().enumerate() {
+        set_option(&mut choice, at, setting, method)?;
+    }
+    Ok(choice)
+}
+
+fn preset(entry: &Entry) -> Choice {
+    Choice {
+        name: entry.name,
+        rule: entry.rule,
+        form: entry.form,
+        block: Block::Joint,
+        unscented: Unscented::default(),
+        gauss_hermite: GaussHermite::default(),
+        central_difference: CentralDifference::default(),
+    }
+}
+
+fn set_option(choice: &mut Choice, at: usize, setting: &Setting, method: &str) -> Result<(), SettingError> {
+    let key = setting.key.as_str();
+    let Some(info) = OPTIONS.iter().find(|info| info.key == key) else {
+        let keys: Vec<_> = OPTIONS.iter().map(|info| info.key).collect();
+        let message = format!("there is no option `{key}`");
+        return Err(SettingError { setting: Some(at), unread: false, message, help: Some(listed(key, &keys)) });
+    };
+    let Some(rule) = info.rule else { return Ok(()) };
+    let number = number(at, setting)?;
+    if rule != choice.rule {
+        return Err(unread(at, key, method, &format!("it belongs to the {} rule", rule.word())));
+    }
+    match key {
+        "alpha" => choice.unscented.alpha = number,
+        "beta" => choice.unscented.beta = number,
+        "kappa" => choice.unscented.kappa = Some(number),
+        "eta" => choice.central_difference.eta = number,
+        _ => {
+            if number.fract() != 0.0 || !(2.0..=64.0).contains(&number) {
+                let message = format!("points = {number}: must be a whole number from 2 to 64");
+                return Err(SettingError { setting: Some(at), unread: false, message, help: None });
+            }
+            choice.gauss_hermite.points = number as usize;
+        }
+    }
+    Ok(())
+}
+
+fn number(at: usize, setting: &Setting) -> Result<f64, SettingError> {
+    match setting.value {
+        Value::Number(x) if x.is_finite() => Ok(x),
+        _ => {
+            let message = format!("{} = {}: must be a number", setting.key, setting.value);
+            Err(SettingError { setting: Some(at), unread: false, message, help: None })
+        }
+    }
+}
+
+fn word<T>(
+    at: usize,
+    setting: &Setting,
+    words: &[&str],
+    parse: impl Fn(&str) -> Option<T>,
+) -> Result<T, SettingError> {
+    let text = setting.value.to_string();
+    parse(&text).ok_or_else(|| SettingError {
+        setting: Some(at),
+        unread: false,
+        message: format!("{} = {text}: no such choice", setting.key),
+        help: Some(listed(&text, words)),
+    })
+}
+
+fn unread(at: usize, key: &str, method: &str, why: &str) -> SettingError {
+    SettingError {
+        setting: Some(at),
+        unread: true,
+        message: format!("`{method}` does not read `{key}`"),
+        help: Some(why.to_owned()),
+    }
+}
+
+fn unknown_method(method: &str) -> SettingError {
+    let known: Vec<_> = names().collect();
+    let continuous = CONTINUOUS.iter().any(|prefix| method.starts_with(prefix));
+    let help = if continuous {
+        "this version holds the discrete-time methods; `givens methods` lists them".to_owned()
+    } else {
+        listed(method, &known)
+    };
+    let message = format!("there is no method `{method}`");
+    SettingError { setting: None, unread: false, message, help: Some(help) }
+}
+
+/// The nearest of the words if one is near, else all of them.
+fn listed(word: &str, words: &[&str]) -> String {
+    let near = words.iter().map(|&known| (edit_distance(word, known), known)).min();
+    match near {
+        Some((distance, known)) if distance <= 1 + word.len() / 4 => format!("did you mean `{known}`?"),
+        _ => format!("one of: {}", words.join(", ")),
+    }
+}
+
+/// The number of letters to insert, drop or change (Levenshtein).
+fn edit_distance(a: &str, b: &str) -> usize {
+    let b: Vec<char> = b.chars().collect();
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, x) in a.chars().enumerate() {
+        let mut diagonal = row[0];
+        row[0] = i + 1;
+        for (j, &y) in b.iter().enumerate() {
+            let above = row[j + 1];
+            row[j + 1] = (diagonal + usize::from(x != y)).min(above + 1).min(row[j] + 1);
+            diagonal = above;
+        }
+    }
+    row[b.len()]
+}

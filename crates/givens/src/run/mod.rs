@@ -1,0 +1,78 @@
+//! A method over a whole trajectory.
+
+mod goal;
+mod recorder;
+
+pub use goal::{Goal, Outcome};
+
+use crate::filter::{Gaussian, Method, StepError};
+use crate::model::{Observation, Transition};
+use crate::{Data, Estimates, Row};
+
+/// A run that stopped in the middle: what it had finished, and why it went no further.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Failure {
+    /// The row at which it stopped, from zero.
+    pub row: usize,
+    /// What went wrong.
+    pub error: StepError,
+    /// The rows before.
+    pub finished: Box<Estimates>,
+}
+
+impl std::fmt::Display for Failure {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "row {}, t = {}: {}", self.row, self.error.time, self.error.fault)
+    }
+}
+
+impl std::error::Error for Failure {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        Some(&self.error)
+    }
+}
+
+/// Filters a trajectory; `prior` holds at time `t0`.
+///
+/// # Errors
+/// The first step that fails, with all rows before it.
+pub fn filter<X: Method, M: Transition, H: Observation>(
+    method: &X,
+    model: &M,
+    sensors: &H,
+    data: &Data,
+    t0: f64,
+    prior: &Gaussian,
+) -> Result<Estimates, Failure> {
+    run(*method, model, sensors, data.rows(), t0, prior, Goal::Filter).into_result()
+}
+
+/// Smooths a trajectory over all of its rows; `prior` holds at time `t0`. Several sensors are a tuple.
+///
+/// # Errors
+/// The first step that fails, with the rows before it, smoothed among themselves.
+pub fn smooth<X: Method, M: Transition, H: Observation>(
+    method: &X,
+    model: &M,
+    sensors: &H,
+    data: &Data,
+    t0: f64,
+    prior: &Gaussian,
+) -> Result<Estimates, Failure> {
+    run(*method, model, sensors, data.rows(), t0, prior, Goal::Interval).into_result()
+}
+
+/// Runs a method over rows in order of time, for any goal.
+pub fn run<'a, X: Method, M: Transition, H: Observation>(
+    method: X,
+    model: &M,
+    sensors: &H,
+    rows: impl Iterator<Item = Row<'a>> + Clone,
+    t0: f64,
+    prior: &Gaussian,
+    goal: Goal,
+) -> Outcome {
+    let mut outcome = Outcome::new(model.states(), sensors.measures(), goal);
+    recorder::record(method, model, sensors, rows, t0, prior, &mut outcome, goal);
+    outcome
+}

@@ -1,0 +1,219 @@
+//! The loop over the rows: predict, update, write down; then back again for the smoothers.
+
+use super::goal::{Goal, Outcome};
+use crate::filter::{Belief, Fault, Filter, Form, Gaussian, Method, Prior, Sizes, StepError};
+use crate::model::{Observation, Transition};
+use crate::rule::Rule;
+use crate::smoother::{FixedPoint, History};
+use crate::{Estimates, Row};
+
+type OwnFilter<'m, X, M> = Filter<'m, X, M, f64, Vec<f64>>;
+
+/// A filter, what it has recorded, and what it is to find out.
+pub(super) struct Recorder<'m, X: Method, M, H> {
+    filter: OwnFilter<'m, X, M>,
+    sensors: &'m H,
+    goal: Goal,
+    history: History<f64, Vec<f64>>,
+    point: Option<FixedPoint<f64, Vec<f64>>>,
+    present: Vec<bool>,
+    /// The belief after the last finished row: where the way back begins if the next one fails.
+    last: (Vec<f64>, Vec<f64>, Vec<f64>),
+    /// Whether the row at work has been predicted, and so recorded.
+    predicted: bool,
+}
+
+impl<'m, X: Method, M: Transition, H: Observation> Recorder<'m, X, M, H> {
+    /// A filter with memory of its own for this model, these sensors and `rows` rows.
+    pub fn start(
+        method: X,
+        model: &'m M,
+        sensors: &'m H,
+        t0: f64,
+        prior: &Gaussian,
+        goal: Goal,
+        rows: usize,
+    ) -> Result<Self, StepError> {
+        let n = model.states();
+        let option = |error| StepError { fault: Fault::Option(error), time: t0, step: 0 };
+        method.rule().check(n).map_err(option)?;
+        let shape = method.rule().shape(n);
+        let sizes = Sizes::of_model(model, shape).with_sensor(sensors, shape);
+        let smoothing = goal != Goal::Filter;
+        let memory = vec![0.0; OwnFilter::<X, M>::memory_len(&method, sizes, smoothing)];
+        let start = Prior { time: t0, mean: prior.mean(), factor: prior.factor(), cov: prior.cov() };
+        let filter = Filter::start_in(method, model, sizes, smoothing, start, memory)?;
+        let capacity = match goal {
+            Goal::Filter | Goal::Point(_) => 0,
+            Goal::Interval => rows,
+            Goal::Lag(lag) => lag.min(rows),
+        };
+        let square_root = X::Form::SQUARE_ROOT;
+        let memory = vec![0.0; History::<f64, Vec<f64>>::memory_len(n, square_root, capacity)];
+        let mut recorder = Self {
+            filter,
+            sensors,
+            goal,
+            history: History::new(n, square_root, memory),
+            point: None,
+            present: vec![false; sensors.measures()],
+            last: (prior.mean().to_vec(), prior.factor().to_vec(), prior.cov().to_vec()),
+            predicted: false,
+        };
+        recorder.begin_point(t0);
+        Ok(recorder)
+    }
+
+    /// Begins the fixed point if its time has come.
+    fn begin_point(&mut self, t: f64) {
+        if self.point.is_none() && self.goal == Goal::Point(t) {
+            let memory = vec![0.0; FixedPoint::<f64, Vec<f64>>::memory_len(self.filter.mean().len())];
+            self.point = Some(FixedPoint::begin(&self.filter, memory));
+        }
+    }
+
+    /// Takes in one row and writes it to `out`; `before` is the row above it.
+    pub fn row(&mut self, before: Option<Row>, row: Row, out: &mut Estimates) -> Result<(), StepError> {
+        self.predicted = false;
+        // a control holds from its row to the next, the first one also before
+        self.filter.set_controls(before.unwrap_or(row).u)?;
+        match &mut self.point {
+            Some(point) => point.predict(&mut self.filter, row.time)?,
+            None => self.history.predict(&mut self.filter, row.time)?,
+        }
+        self.predicted = true;
+        push(&self.filter, &mut out.predicted_mean, &mut out.predicted_cov);
+        self.filter.set_controls(row.u)?;
+        for (there, z) in self.present.iter_mut().zip(row.z) {
+            *there = !z.is_nan();
+        }
+        self.filter.update_present(self.sensors, row.z, &self.present)?;
+        let waiting = matches!(self.goal, Goal::Point(_)) && self.point.is_none();
+        match &mut self.point {
+            Some(point) => point.update(&self.filter),
+            None => self.begin_point(row.time),
+        }
+        if waiting && self.point.is_none() {
+            out.truncate(out.len());
+            return Ok(());
+        }
+        self.write(row.time, out);
+        if let Goal::Lag(lag) = self.goal {
+            let at = out.len() - 1;
+            let filter = &self.filter;
+            self.history.smooth(filter, lag.min(at), |age, belief| {
+                if age == lag {
+                    put::<X::Form>(out, at - age, belief);
+                }
+            })?;
+        }
+        self.keep();
+        Ok(())
+    }
+
+    /// Notes the belief that the row has ended with.
+    fn keep(&mut self) {
+        self.last.0.copy_from_slice(self.filter.mean());
+        self.last.1.copy_from_slice(self.filter.factor());
+        self.filter.write_cov(&mut self.last.2);
+    }
+
+    fn write(&self, time: f64, out: &mut Estimates) {
+        out.time.push(time);
+        match &self.point {
+            Some(point) => {
+                out.mean.extend_from_slice(point.mean());
+                out.cov.extend_from_slice(point.cov());
+            }
+            None => push(&self.filter, &mut out.mean, &mut out.cov),
+        }
+        if out.smoothed {
+            push(&self.filter, &mut out.filtered_mean, &mut out.filtered_cov);
+        }
+        let d = self.present.len();
+        let innovation = self.filter.innovation();
+        let (nu_at, cov_at) = (out.innovation.len(), out.innovation_cov.len());
+        out.innovation.resize(nu_at + d, f64::NAN);
+        out.innovation_cov.resize(cov_at + d * d, f64::NAN);
+        let there = |k: &usize| self.present[*k];
+        for (i, row) in (0..d).filter(there).enumerate() {
+            out.innovation[nu_at + row] = innovation.nu[i];
+            for (j, column) in (0..d).filter(there).enumerate() {
+                out.innovation_cov[cov_at + row * d + column] = innovation.cov(i, j);
+            }
+        }
+        let dof = innovation.nu.len();
+        out.nis_dof.push(dof);
+        out.nis.push(if dof == 0 { f64::NAN } else { innovation.nis });
+        out.log_likelihood.push(innovation.log_likelihood);
+    }
+
+    /// Goes back over the finished rows.
+    pub fn finish(&mut self, out: &mut Estimates, failed: bool) -> Result<(), StepError> {
+        let Some(last) = out.len().checked_sub(1) else { return Ok(()) };
+        let steps = match self.goal {
+            Goal::Interval => last,
+            Goal::Lag(lag) => lag.min(last),
+            Goal::Filter | Goal::Point(_) => return Ok(()),
+        };
+        let start = Prior { time: out.time[last], mean: &self.last.0, factor: &self.last.1, cov: &self.last.2 };
+        let skip = usize::from(failed && self.predicted);
+        self.history.smooth_from::<X::Form>(start, skip, steps, |age, belief| put::<X::Form>(out, last - age, belief))
+    }
+}
+
+/// Appends a filter's mean and covariance.
+fn push<X: Method, M: Transition>(filter: &OwnFilter<X, M>, mean: &mut Vec<f64>, cov: &mut Vec<f64>) {
+    let (n, at) = (filter.mean().len(), cov.len());
+    mean.extend_from_slice(filter.mean());
+    cov.resize(at + n * n, 0.0);
+    filter.write_cov(&mut cov[at..]);
+}
+
+/// Replaces the estimate of a row by a smoothed one.
+fn put<F: Form>(out: &mut Estimates, row: usize, belief: &Belief<f64>) {
+    let n = belief.mean.len();
+    out.mean[row * n..(row + 1) * n].copy_from_slice(belief.mean);
+    let cov = &mut out.cov[row * n * n..(row + 1) * n * n];
+    if F::SQUARE_ROOT {
+        crate::kernels::square(cov, n, belief.factor, n, n);
+    } else {
+        cov.copy_from_slice(belief.cov);
+    }
+}
+
+/// Runs over all rows; a failure ends the run after the rows before it have been smoothed among themselves.
+pub(super) fn record<'a, X: Method, M: Transition, H: Observation>(
+    method: X,
+    model: &M,
+    sensors: &H,
+    rows: impl Iterator<Item = Row<'a>> + Clone,
+    t0: f64,
+    prior: &Gaussian,
+    outcome: &mut Outcome,
+    goal: Goal,
+) {
+    let out = &mut outcome.estimates;
+    let count = if goal == Goal::Filter { 0 } else { rows.clone().count() };
+    let mut recorder = match Recorder::start(method, model, sensors, t0, prior, goal, count) {
+        Ok(recorder) => recorder,
+        Err(error) => {
+            outcome.failure = Some((0, error));
+            return;
+        }
+    };
+    let mut before = None;
+    for (k, row) in rows.enumerate() {
+        if let Err(error) = recorder.row(before, row, out) {
+            outcome.failure = Some((k, error));
+            break;
+        }
+        before = Some(row);
+    }
+    out.truncate(out.len());
+    if let Err(error) = recorder.finish(out, outcome.failure.is_some()) {
+        // a smoothed covariance that does not exist: the filtered rows are no answer to the question
+        outcome.failure.get_or_insert((out.len().saturating_sub(1), error));
+        out.truncate(0);
+    }
+}

@@ -43,12 +43,17 @@ fn segment(a: Point, b: Point, rect: &Rect) -> Option<(Point, Point)> {
     }
     // False for NaN as well, which the difference of two far points can give.
     if enter <= leave {
-        let at = |s: f64| [a[0] + s * d[0], a[1] + s * d[1]];
+        let at = |s: f64| within([a[0] + s * d[0], a[1] + s * d[1]], rect);
         let from = if enter > 0.0 { at(enter) } else { a };
         Some((from, if leave < 1.0 { at(leave) } else { b }))
     } else {
         None
     }
+}
+
+/// What rounding left outside, when the ends were far away.
+fn within([x, y]: Point, rect: &Rect) -> Point {
+    [x.clamp(rect.x, rect.right()), y.clamp(rect.y, rect.bottom())]
 }
 
 /// The part of a closed ring inside `rect`, after Sutherland and Hodgman; empty when nothing is.
@@ -77,7 +82,7 @@ pub(super) fn ring(ring: &[Point], rect: &Rect) -> Vec<Point> {
         }
         points = kept;
     }
-    points
+    points.into_iter().map(|p| within(p, rect)).collect()
 }
 
 #[cfg(test)]
@@ -88,7 +93,9 @@ mod tests {
 
     #[test]
     fn a_line_through_the_box_keeps_its_slope() {
-        assert_eq!(lines(&[[-1e9, -1e9], [1e9, 1e9]], &BOX), [vec![[0.0, 0.0], [10.0, 10.0]]]);
+        assert_eq!(lines(&[[-64.0, -64.0], [64.0, 64.0]], &BOX), [vec![[0.0, 0.0], [10.0, 10.0]]]);
+        let far = lines(&[[-1e200, -3e200], [1e200, 3e200]], &BOX);
+        assert!(far.iter().flatten().all(|p| BOX.contains(*p)));
     }
 
     #[test]

@@ -31,6 +31,8 @@ impl Colour {
     /// Middle grey, for raw data.
     pub const GREY: Self = Self::rgb(0x8a, 0x8f, 0x98);
 
+    /// Light grey, for dots that fill a panel.
+    pub(super) const PALE: Self = Self::rgb(0xc3, 0xc8, 0xcf);
     pub(super) const WHITE: Self = Self::rgb(0xff, 0xff, 0xff);
     pub(super) const GRID: Self = Self::rgb(0xe9, 0xeb, 0xee);
     pub(super) const AXIS: Self = Self::rgb(0x9a, 0xa0, 0xa8);

@@ -39,10 +39,12 @@ impl AxisFilter {
 pub(super) fn turn(name: &str, rows: usize, seed: u64) -> Track {
     let (dt, r, rate) = (1.0, 40.0, 0.035);
     let mut noise = Noise(seed);
-    let mut truth = [1000.0, 120.0, 1000.0, 30.0];
+    // Each name starts in a direction of its own.
+    let (sin, cos) = (name.len() as f64 * 0.3 + seed as f64).sin_cos();
+    let mut truth = [1000.0, 60.0 * cos, 1000.0, 60.0 * sin];
     let mut filters = [
-        AxisFilter { x: [1150.0, 60.0], p: [200.0 * 200.0, 0.0, 100.0 * 100.0] },
-        AxisFilter { x: [900.0, 80.0], p: [200.0 * 200.0, 0.0, 100.0 * 100.0] },
+        AxisFilter { x: [1150.0, 20.0], p: [200.0 * 200.0, 0.0, 100.0 * 100.0] },
+        AxisFilter { x: [900.0, 20.0], p: [200.0 * 200.0, 0.0, 100.0 * 100.0] },
     ];
     let mut states: Vec<StateSeries> = ["x", "vx", "y", "vy", "w"]
         .iter()
@@ -61,7 +63,7 @@ pub(super) fn turn(name: &str, rows: usize, seed: u64) -> Track {
             vx * (omega * dt).sin() + vy * (omega * dt).cos(),
         ];
         let z = [truth[0] + r * noise.next(), truth[2] + r * noise.next()];
-        let total = filters[0].step(z[0], dt, 10.0, r) + filters[1].step(z[1], dt, 10.0, r);
+        let total = filters[0].step(z[0], dt, 25.0, r) + filters[1].step(z[1], dt, 25.0, r);
         let [fx, fy] = &filters;
         let omega_std = 0.03 / (1.0 + 0.05 * k as f64) + 0.006;
         let rows = [

@@ -2,7 +2,7 @@
 
 use super::colour::Colour;
 use super::font::{Fonts, Weight};
-use super::marks::DASH;
+use super::marks::{DASH, size};
 use super::plot::{Mark, Panel, Shape};
 use super::scene::{Anchor, Item, Marker, Point, Stroke, Text};
 
@@ -10,9 +10,11 @@ use super::scene::{Anchor, Item, Marker, Point, Stroke, Text};
 pub(super) const LINE: f64 = 18.0;
 const SIZE: f64 = 11.5;
 const SAMPLE: f64 = 24.0;
+const DOT_SAMPLE: f64 = 10.0;
 const GAP: f64 = 20.0;
 
-/// The first mark of each name, in order of appearance.
+/// The first mark of each name: lines, the boldest first, then areas, then
+/// dots, each in order of appearance.
 pub(super) fn entries<'a>(panels: impl IntoIterator<Item = &'a Panel>) -> Vec<&'a Mark> {
     let mut found: Vec<&Mark> = Vec::new();
     for mark in panels.into_iter().flat_map(|p| &p.marks) {
@@ -22,6 +24,14 @@ pub(super) fn entries<'a>(panels: impl IntoIterator<Item = &'a Panel>) -> Vec<&'
             found.push(mark);
         }
     }
+    let rank = |mark: &Mark| match &mark.shape {
+        Shape::Line { width, .. } => -size(*width),
+        Shape::Band { .. } => 1.0,
+        Shape::Ellipses { .. } => 2.0,
+        Shape::Dots { .. } => 3.0,
+        Shape::Level { .. } => 4.0,
+    };
+    found.sort_by(|a, b| rank(a).total_cmp(&rank(b)));
     found
 }
 
@@ -35,7 +45,7 @@ pub(super) fn lines<'a>(
     let mut x = f64::INFINITY;
     for mark in entries {
         let text = fonts.fit(&mark.name, Weight::Regular, SIZE, (width - SAMPLE - 6.0).max(20.0));
-        let length = SAMPLE + 6.0 + fonts.width(&text, Weight::Regular, SIZE);
+        let length = sample_width(mark) + 6.0 + fonts.width(&text, Weight::Regular, SIZE);
         if x + length > width {
             rows.push(Vec::new());
             x = 0.0;
@@ -48,16 +58,20 @@ pub(super) fn lines<'a>(
     rows
 }
 
+fn sample_width(mark: &Mark) -> f64 {
+    if matches!(mark.shape, Shape::Dots { .. }) { DOT_SAMPLE } else { SAMPLE }
+}
+
 /// Draws one line of a key with its baseline starting at `at`.
-pub(super) fn draw(row: &[(f64, &Mark, String)], at: Point, _fonts: &Fonts, items: &mut Vec<Item>) {
+pub(super) fn draw(row: &[(f64, &Mark, String)], at: Point, items: &mut Vec<Item>) {
     for (x, mark, text) in row {
         let [x, y] = [at[0] + x, at[1]];
         sample(mark, [x, y - 0.36 * SIZE], items);
-        let (at, weight, colour) = ([x + SAMPLE + 6.0, y], Weight::Regular, Colour::INK);
+        let (at, weight, colour) = ([x + sample_width(mark) + 6.0, y], Weight::Regular, Colour::INK);
         let anchor = Anchor::Start;
         items.push(Item::Text(Text {
             at,
-            text: text.clone(),
+            line: text.clone(),
             size: SIZE,
             weight,
             colour,
@@ -73,12 +87,12 @@ fn sample(mark: &Mark, [x, y]: Point, items: &mut Vec<Item>) {
         stroke: Stroke { colour: mark.colour, width, dash: dashed.then_some(DASH) },
     };
     items.push(match &mark.shape {
-        Shape::Line { width, dashed, .. } => line(width.clamp(0.5, 4.0), *dashed),
+        Shape::Line { width, dashed, .. } => line(size(*width).clamp(0.5, 4.0), *dashed),
         Shape::Level { dashed, .. } => line(1.0, *dashed),
         Shape::Dots { radius, hollow, .. } => Item::Markers {
-            at: vec![[x + SAMPLE / 2.0, y]],
+            at: vec![[x + DOT_SAMPLE / 2.0, y]],
             marker: if *hollow { Marker::Ring } else { Marker::Disc },
-            radius: radius.clamp(1.8, 5.0),
+            radius: size(*radius).clamp(1.8, 5.0),
             colour: mark.colour,
         },
         Shape::Band { .. } => Item::Rings {

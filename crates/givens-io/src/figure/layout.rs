@@ -45,7 +45,15 @@ fn header(figure: &Figure, width: f64, fonts: &Fonts, items: &mut Vec<Item>) -> 
         if !text.is_empty() {
             y += above;
             let anchor = Anchor::Start;
-            items.push(Item::Text(Text { at: [EDGE, y], text, size, weight, colour, anchor, turned: false }));
+            items.push(Item::Text(Text {
+                at: [EDGE, y],
+                line: text,
+                size,
+                weight,
+                colour,
+                anchor,
+                turned: false,
+            }));
             y += below;
         }
     }
@@ -54,7 +62,7 @@ fn header(figure: &Figure, width: f64, fonts: &Fonts, items: &mut Vec<Item>) -> 
         collect(&figure.body, DEEPEST, &mut panels);
         for row in key::lines(&key::entries(panels), room, fonts) {
             y += 13.0;
-            key::draw(&row, [EDGE, y], fonts, items);
+            key::draw(&row, [EDGE, y], items);
             y += key::LINE - 13.0;
         }
         y += 4.0;
@@ -181,6 +189,9 @@ impl<'a> Cells<'a> {
                 };
                 let Margins { left, right, top, bottom } = cell.margins(column[1], row[1], fonts);
                 beside[c] = [beside[c][0].max(left), beside[c][1].max(right)];
+                // Over a blank cell the labels have that cell's room.
+                let below = self.0.get(i + n).is_some_and(Option::is_some);
+                let bottom = if below || r + 1 == m { bottom } else { about[r][1] };
                 about[r] = [about[r][0].max(top), about[r][1].max(bottom)];
             }
             if let Some(first) = beside.first_mut() {

@@ -74,7 +74,8 @@ pub(super) fn draw(mark: &Mark, frame: &Frame, items: &mut Vec<Item>) {
     }
 }
 
-fn size(given: f64) -> f64 {
+/// A width or radius that can be drawn.
+pub(super) fn size(given: f64) -> f64 {
     if given.is_finite() { given.clamp(0.2, 50.0) } else { 1.0 }
 }
 

@@ -55,10 +55,28 @@ impl<'a> Ranged<'a> {
         Frame { x: across, y: up, rect }
     }
 
+    /// The ticks across and upwards; none without data.
+    fn ticks(&self, frame: &Frame, fonts: &Fonts) -> (Ticks, Ticks) {
+        if self.empty {
+            return (Ticks::default(), Ticks::default());
+        }
+        let across = x_ticks(frame, fonts);
+        let alike = || {
+            let step = across.values.windows(2).map(|w| w[1] - w[0]).next()?;
+            let [lo, hi] = frame.y.range;
+            let up = ticks(frame.y.scale, frame.y.range, (hi - lo) / (1.000_001 * step));
+            (up.values.len() > 1).then_some(up)
+        };
+        let up = if self.panel.equal { alike() } else { None };
+        let up = up.unwrap_or_else(|| y_ticks(frame));
+        (across, up)
+    }
+
     /// The room that the labels need around axes of this size.
     pub fn margins(&self, width: f64, height: f64, fonts: &Fonts) -> Margins {
         let frame = self.frame(Rect { x: 0.0, y: 0.0, width, height });
-        let widest = y_ticks(&frame).labels.iter().map(|l| tick_width(l, fonts)).fold(0.0, f64::max);
+        let widest =
+            self.ticks(&frame, fonts).1.labels.iter().map(|l| tick_width(l, fonts)).fold(0.0, f64::max);
         let titled = !(self.panel.heading.is_empty() && self.panel.remark.is_empty());
         let keys =
             if self.panel.key { key::lines(&key::entries([self.panel]), width, fonts).len() } else { 0 };
@@ -78,7 +96,7 @@ impl<'a> Ranged<'a> {
     /// Draws the panel with its axes on `rect`.
     pub fn draw(&self, rect: Rect, fonts: &Fonts, items: &mut Vec<Item>) {
         let frame = self.frame(rect);
-        let (across, up) = (x_ticks(&frame, fonts), y_ticks(&frame));
+        let (across, up) = self.ticks(&frame, fonts);
         grid(&frame, &across, &up, items);
         let mut inside = Vec::new();
         for mark in &self.panel.marks {
@@ -122,7 +140,7 @@ impl<'a> Ranged<'a> {
                 let (size, weight, colour) = (LABEL_SIZE, Weight::Regular, Colour::INK);
                 items.push(Item::Text(Text {
                     at,
-                    text,
+                    line: text,
                     size,
                     weight,
                     colour,
@@ -147,19 +165,18 @@ impl<'a> Ranged<'a> {
         let rows = if panel.key { key::lines(&key::entries([panel]), rect.width, fonts) } else { Vec::new() };
         let mut y = rect.y - 8.0;
         for row in rows.iter().rev() {
-            key::draw(row, [rect.x, y], fonts, items);
+            key::draw(row, [rect.x, y], items);
             y -= key::LINE;
         }
         // An offset of the y axis without a label to carry it goes with the heading.
-        let (_, up) = (0, y_ticks(&self.frame(rect)));
+        let (_, up) = self.ticks(&self.frame(rect), fonts);
         let mut name = panel.heading.clone();
         if panel.y.label.is_empty() && up.offset.is_some() {
             name = with_offset(&name, &up);
         }
-        let remark = fonts.fit(&panel.remark, Weight::Regular, REMARK_SIZE, 0.75 * rect.width);
-        let taken = fonts.width(&remark, Weight::Regular, REMARK_SIZE);
-        let room = rect.width - if remark.is_empty() { 0.0 } else { taken + 14.0 };
-        let text = fonts.fit(&name, Weight::SemiBold, HEADING_SIZE, room);
+        let text = fonts.fit(&name, Weight::SemiBold, HEADING_SIZE, rect.width);
+        let taken = fonts.width(&text, Weight::SemiBold, HEADING_SIZE);
+        let remark = remark(&panel.remark, rect.width - taken - 14.0, fonts);
         for (text, x, size, weight, colour, anchor) in [
             (text, rect.x, HEADING_SIZE, Weight::SemiBold, Colour::INK, Anchor::Start),
             (remark, rect.right(), REMARK_SIZE, Weight::Regular, Colour::LABEL, Anchor::End),
@@ -167,7 +184,7 @@ impl<'a> Ranged<'a> {
             if !text.is_empty() {
                 items.push(Item::Text(Text {
                     at: [x, y],
-                    text,
+                    line: text,
                     size,
                     weight,
                     colour,
@@ -177,6 +194,15 @@ impl<'a> Ranged<'a> {
             }
         }
     }
+}
+
+/// As many of the remark's parts, divided by ` · `, as there is room for.
+fn remark(text: &str, room: f64, fonts: &Fonts) -> String {
+    let mut kept = text;
+    while !kept.is_empty() && fonts.width(kept, Weight::Regular, REMARK_SIZE) > room {
+        kept = kept.rfind(" · ").map_or("", |end| kept.get(..end).unwrap_or(""));
+    }
+    kept.to_owned()
 }
 
 fn range(axis: &Axis, found: Option<[f64; 2]>) -> [f64; 2] {
@@ -197,22 +223,25 @@ fn tick_width(text: &str, fonts: &Fonts) -> f64 {
     fonts.width(text, Weight::Regular, TICK_SIZE)
 }
 
+/// Ticks at easy distances; closer ones where a low panel would have fewer than three.
 fn y_ticks(frame: &Frame) -> Ticks {
-    ticks(frame.y.scale, frame.y.range, (frame.rect.height / 30.0) as usize)
+    let tried = [26.0, 22.0, 19.0, 17.0];
+    let tried = tried.map(|apart| ticks(frame.y.scale, frame.y.range, frame.rect.height / apart));
+    tried.into_iter().reduce(|best, next| if best.values.len() < 3 { next } else { best }).unwrap_or_default()
 }
 
 /// As many ticks as have room for their labels.
 fn x_ticks(frame: &Frame, fonts: &Fonts) -> Ticks {
-    let mut count = (frame.rect.width / 64.0).clamp(1.0, 14.0) as usize;
+    let mut count = (frame.rect.width / 64.0).clamp(1.0, 14.0);
     loop {
         let found = ticks(frame.x.scale, frame.x.range, count);
         let places: Vec<f64> = found.values.iter().filter_map(|v| frame.x.place(*v)).collect();
         let gap = places.windows(2).map(|w| w[1] - w[0]).fold(f64::INFINITY, f64::min);
         let widest = found.labels.iter().map(|l| tick_width(l, fonts)).fold(0.0, f64::max);
-        if widest + 12.0 <= gap || count <= 1 {
+        if widest + 12.0 <= gap || count <= 1.0 {
             return found;
         }
-        count -= 1;
+        count = (count - 1.0).max(1.0);
     }
 }
 
@@ -228,7 +257,7 @@ fn with_offset(text: &str, ticks: &Ticks) -> String {
 
 fn label(at: [f64; 2], text: &str, anchor: Anchor, colour: Colour) -> Item {
     let (size, weight) = (TICK_SIZE, Weight::Regular);
-    Item::Text(Text { at, text: text.to_owned(), size, weight, colour, anchor, turned: false })
+    Item::Text(Text { at, line: text.to_owned(), size, weight, colour, anchor, turned: false })
 }
 
 fn grid(frame: &Frame, across: &Ticks, up: &Ticks, items: &mut Vec<Item>) {

@@ -47,7 +47,8 @@ pub struct Grid {
 pub struct Panel {
     /// Above the axes on the left, in bold.
     pub heading: String,
-    /// Above the axes on the right, small and grey.
+    /// Above the axes on the right, small and grey; of parts divided by ` · `, the last ones give way
+    /// where the room is short.
     pub remark: String,
     /// Across.
     pub x: Axis,

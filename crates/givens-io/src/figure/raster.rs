@@ -96,7 +96,7 @@ impl Canvas {
     }
 
     fn text(&mut self, text: &Text) {
-        let (placed, length) = self.fonts.line(&text.text, text.weight);
+        let (placed, length) = self.fonts.line(&text.line, text.weight);
         let start = match text.anchor {
             Anchor::Start => 0.0,
             Anchor::Middle => -0.5 * length,

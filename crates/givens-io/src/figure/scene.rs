@@ -68,7 +68,7 @@ pub(super) enum Anchor {
 pub(super) struct Text {
     /// On the baseline.
     pub at: Point,
-    pub text: String,
+    pub line: String,
     pub size: f64,
     pub weight: Weight,
     pub colour: Colour,

@@ -14,23 +14,23 @@ pub(super) struct Ticks {
     pub offset: Option<String>,
 }
 
-/// At most about `count` ticks (at least one interval's worth is tried) inside `range`.
-pub(super) fn ticks(scale: Scale, range: [f64; 2], count: usize) -> Ticks {
-    let count = count.clamp(1, 50);
+/// Ticks inside `range`, as many as stand a `count`th of the axis apart.
+pub(super) fn ticks(scale: Scale, range: [f64; 2], count: f64) -> Ticks {
+    let count = count.clamp(1.0, 50.0);
     let [lo, hi] = range;
     if !(scale.holds(lo) && scale.holds(hi) && lo < hi) {
         return Ticks::default();
     }
     match scale {
         Scale::Linear => linear(lo, hi, count),
-        Scale::Log if hi / lo < 30.0 => spread(scale, range, count, linear(lo, hi, 4 * count).values),
-        Scale::Log => spread(scale, range, count, decades(lo, hi)),
+        Scale::Log if hi / lo < 30.0 => spread(scale, range, count, &linear(lo, hi, 4.0 * count).values),
+        Scale::Log => spread(scale, range, count, &decades(lo, hi)),
         Scale::Compressed { .. } => {
             let upper = decades(1e-3 * hi.max(-lo), hi.max(-lo));
-            let mut values: Vec<f64> =
-                upper.iter().rev().map(|v| -v).chain([0.0]).chain(upper.clone()).collect();
+            let lower = upper.iter().rev().map(|v| -v);
+            let mut values: Vec<f64> = lower.chain([0.0]).chain(upper.iter().copied()).collect();
             values.retain(|v| (lo..=hi).contains(v));
-            spread(scale, range, count, values)
+            spread(scale, range, count, &values)
         }
     }
 }
@@ -48,8 +48,8 @@ fn nice_step(raw: f64) -> (f64, i32) {
     }
 }
 
-fn linear(lo: f64, hi: f64, count: usize) -> Ticks {
-    let (digit, power) = nice_step((hi - lo) / count as f64);
+fn linear(lo: f64, hi: f64, count: f64) -> Ticks {
+    let (digit, power) = nice_step((hi - lo) / count);
     let offset = offset(lo, hi, power);
     let (low, high) = (lo - offset, hi - offset);
     // Multiples by division where the power is negative: 3/10, not 3 × 0.1.
@@ -70,15 +70,19 @@ fn linear(lo: f64, hi: f64, count: usize) -> Ticks {
     }
 }
 
-/// What to take off all labels where they would need more than six digits to differ; else zero.
+/// What to take off all labels where they would need too many digits to differ; else zero.
 fn offset(lo: f64, hi: f64, power: i32) -> f64 {
     let size = lo.abs().max(hi.abs());
-    if size / 10f64.powi(power) < 1e6 || lo < 0.0 && hi > 0.0 || !(1e-4..1e15).contains(&size) {
+    // Large values are written with a power of ten, which leaves less room for digits.
+    let most = if size < 1e7 { 1e6 } else { 1e4 };
+    if size / 10f64.powi(power) < most || lo < 0.0 && hi > 0.0 || !(1e-4..1e15).contains(&size) {
         return 0.0;
     }
+    // Rounded down from within the range, so that data from a round number on begin at zero.
     let coarse = (hi - lo).log10().ceil() as i32;
-    let units = (lo / 10f64.powi(coarse)).floor();
-    if coarse < 0 { units / 10f64.powi(-coarse) } else { units * 10f64.powi(coarse) }
+    let units = |v: f64| if coarse < 0 { v * 10f64.powi(-coarse) } else { v / 10f64.powi(coarse) };
+    let whole = units(lo + 0.1 * (hi - lo)).floor();
+    if coarse < 0 { whole / 10f64.powi(-coarse) } else { whole * 10f64.powi(coarse) }
 }
 
 /// 1, 2 and 5 times the powers of ten in a positive range.
@@ -96,33 +100,19 @@ fn decades(lo: f64, hi: f64) -> Vec<f64> {
     values
 }
 
-/// Keeps of `values` the roundest ones that stand at least a `count`th of the axis apart.
-fn spread(scale: Scale, range: [f64; 2], count: usize, values: Vec<f64>) -> Ticks {
+/// Keeps of the ascending `values` those that stand at least a `count`th of the axis apart: zero first,
+/// then from the ends inwards. Where 1, 2 and 5 have no room, only powers of ten are kept.
+fn spread(scale: Scale, range: [f64; 2], count: f64, values: &[f64]) -> Ticks {
     let [a, b] = range.map(|v| scale.forward(v));
-    let apart = (b - a) / count as f64;
-    let decade_is_wide = scale != Scale::Log || apart <= 1.0;
-    // The rounder go first and claim their room: zero, the powers of ten, then 5, then 2.
-    let rank = |v: f64| {
-        let decade = v.abs().log10();
-        let leading = (v.abs() / 10f64.powf(decade.floor())).round() as i64;
-        match leading {
-            _ if v == 0.0 => 0,
-            1 | 10 => {
-                if decade_is_wide {
-                    1
-                } else {
-                    1 + (decade.round() as i64).rem_euclid(3)
-                }
-            }
-            5 => 4,
-            _ => 5,
-        }
-    };
-    let mut order: Vec<f64> = values;
-    order.sort_by(|x, y| rank(*x).cmp(&rank(*y)).then(y.abs().total_cmp(&x.abs())).then(x.total_cmp(y)));
-    let mut kept: Vec<f64> = Vec::new();
-    for v in order {
-        if kept.iter().all(|k| (scale.forward(*k) - scale.forward(v)).abs() >= apart * 0.999) {
+    let apart = (b - a) / count * 0.999;
+    let decade = if scale == Scale::Log { 1.0 } else { core::f64::consts::LN_10 };
+    let all = apart <= decade * core::f64::consts::LOG10_2 || b - a < decade;
+    let round = |v: f64| v == 0.0 || (v.abs().log10() - v.abs().log10().round()).abs() < 1e-9;
+    let mut kept: Vec<f64> = values.iter().copied().filter(|v| *v == 0.0).collect();
+    let positive = values.iter().rev().take_while(|v| **v > 0.0);
+    let negative = values.iter().take_while(|v| **v < 0.0);
+    for v in positive.chain(negative).copied().filter(|v| all || round(*v)) {
+        if kept.iter().all(|k| (scale.forward(*k) - scale.forward(v)).abs() >= apart) {
             kept.push(v);
         }
     }
@@ -135,27 +125,27 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    fn labels(lo: f64, hi: f64, count: usize) -> Vec<String> {
+    fn labels(lo: f64, hi: f64, count: f64) -> Vec<String> {
         ticks(Scale::Linear, [lo, hi], count).labels
     }
 
     #[test]
     fn steps_are_one_two_or_five() {
-        assert_eq!(labels(0.0, 10.0, 5), ["0", "2", "4", "6", "8", "10"]);
-        assert_eq!(labels(-0.12, 0.31, 5), ["−0.1", "0.0", "0.1", "0.2", "0.3"]);
-        assert_eq!(labels(0.0, 31_000.0, 4), ["0", "10\u{2009}000", "20\u{2009}000", "30\u{2009}000"]);
-        assert_eq!(labels(1.0, 9.0, 2), ["5"]);
+        assert_eq!(labels(0.0, 10.0, 5.0), ["0", "2", "4", "6", "8", "10"]);
+        assert_eq!(labels(-0.12, 0.31, 5.0), ["−0.1", "0.0", "0.1", "0.2", "0.3"]);
+        assert_eq!(labels(0.0, 31_000.0, 4.0), ["0", "10\u{2009}000", "20\u{2009}000", "30\u{2009}000"]);
+        assert_eq!(labels(1.0, 9.0, 2.0), ["5"]);
     }
 
     #[test]
     fn very_large_and_small_values_use_powers_of_ten() {
-        assert_eq!(labels(0.0, 2e9, 2), ["0", "1×10⁹", "2×10⁹"]);
-        assert_eq!(labels(0.0, 3e-7, 3), ["0", "1×10⁻⁷", "2×10⁻⁷", "3×10⁻⁷"]);
+        assert_eq!(labels(0.0, 2e9, 2.0), ["0", "1×10⁹", "2×10⁹"]);
+        assert_eq!(labels(0.0, 3e-7, 3.0), ["0", "1×10⁻⁷", "2×10⁻⁷", "3×10⁻⁷"]);
     }
 
     #[test]
     fn labels_that_differ_in_the_last_digits_share_an_offset() {
-        let t = ticks(Scale::Linear, [1_700_000_003.0, 1_700_000_103.0], 5);
+        let t = ticks(Scale::Linear, [1_700_000_003.0, 1_700_000_103.0], 5.0);
         assert_eq!(t.offset.as_deref(), Some("1\u{2009}700\u{2009}000\u{2009}000"));
         assert_eq!(t.labels, ["20", "40", "60", "80", "100"]);
         assert_eq!(t.values[0], 1_700_000_020.0);
@@ -163,18 +153,18 @@ mod tests {
 
     #[test]
     fn log_ticks_are_powers_of_ten() {
-        assert_eq!(ticks(Scale::Log, [1.0, 1000.0], 4).labels, ["1", "10", "100", "1000"]);
+        assert_eq!(ticks(Scale::Log, [1.0, 1000.0], 4.0).labels, ["1", "10", "100", "1000"]);
     }
 
     #[test]
     fn compressed_ticks_start_at_zero_and_reach_the_outlier() {
-        let t = ticks(Scale::Compressed { unit: 1.5 }, [0.0, 1200.0], 5);
+        let t = ticks(Scale::Compressed { unit: 1.5 }, [0.0, 1200.0], 5.0);
         assert_eq!((t.values[0], t.values[t.values.len() - 1]), (0.0, 1000.0));
     }
 
     proptest! {
         #[test]
-        fn ticks_ascend_inside_any_range(a in proptest::num::f64::ANY, b in proptest::num::f64::ANY, n in 0usize..100, kind in 0..3) {
+        fn ticks_ascend_inside_any_range(a in proptest::num::f64::ANY, b in proptest::num::f64::ANY, n in -1.0..100.0f64, kind in 0..3) {
             let scale = match kind { 0 => Scale::Linear, 1 => Scale::Log, _ => Scale::Compressed { unit: b } };
             let range = scale.range(Some([a, b]), 0.04);
             let t = ticks(scale, range, n);

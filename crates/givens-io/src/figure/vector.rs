@@ -92,7 +92,10 @@ impl Writer {
         match marker {
             Marker::Disc => {
                 // A line of no length with round ends is a disc, in the fewest bytes.
-                let d: String = at.iter().map(|p| format!("M{} {}h0", number(p[0]), number(p[1]))).collect();
+                let mut d = String::new();
+                for p in at {
+                    push(&mut d, format_args!("M{} {}h0", number(p[0]), number(p[1])));
+                }
                 let stroke = paint("stroke", colour);
                 let width = number(2.0 * radius);
                 push(
@@ -116,7 +119,7 @@ impl Writer {
     }
 
     fn text(&mut self, text: &Text) {
-        let (placed, length) = self.fonts.line(&text.text, text.weight);
+        let (placed, length) = self.fonts.line(&text.line, text.weight);
         let start = EM
             * match text.anchor {
                 Anchor::Start => 0.0,
@@ -130,7 +133,7 @@ impl Writer {
             format_args!(
                 "<g transform=\"translate({x} {y}){turn} scale({scale} -{scale})\"{} aria-label=\"{}\">",
                 paint("fill", text.colour),
-                escaped(&text.text)
+                escaped(&text.line)
             ),
         );
         for glyph in placed {

@@ -5,6 +5,7 @@ mod page;
 mod plane;
 mod state;
 
+use super::colour::Colour;
 use super::plot::Figure;
 
 /// What there is to show of one run over some data. Lengths that do not agree are cut to the
@@ -61,6 +62,27 @@ pub struct Track {
     pub states: Vec<StateSeries>,
     /// Its normalised innovation squared.
     pub nis: Option<NisSeries>,
+}
+
+/// How the estimate of a track is named and coloured, alike in all panels.
+struct Look {
+    name: String,
+    colour: Colour,
+}
+
+impl Look {
+    /// With more tracks than this they have no names in the key, and only their lines are drawn.
+    const MOST_NAMED: usize = 7;
+
+    fn of(figure: &TrackFigure, index: usize) -> Self {
+        let colour = Colour::series(index);
+        let name = match (figure.tracks.len(), figure.tracks.get(index)) {
+            (2..=Self::MOST_NAMED, Some(track)) if !track.name.is_empty() => track.name.clone(),
+            _ if figure.smoothed => "smoothed".to_owned(),
+            _ => "estimate".to_owned(),
+        };
+        Self { name, colour }
+    }
 }
 
 /// A track in the plane of two states.

@@ -11,6 +11,9 @@ const FEW_CHANGES: usize = 10;
 /// At most so many bands over one another.
 const MOST_BANDS: usize = 4;
 
+/// With more rows than this their mean is drawn too.
+const DENSE: usize = 2000;
+
 struct Row {
     time: f64,
     nis: f64,
@@ -30,9 +33,8 @@ pub(super) fn panel(series: &NisSeries, x: Axis) -> Panel {
         .filter(|r| r.time.is_finite() && r.nis.is_finite())
         .collect();
     let mut marks = Vec::new();
-    for (i, rows) in bands(&rows).into_iter().enumerate() {
-        let name = if i == 0 { "95\u{2009}% band of χ²" } else { "" };
-        marks.push(Mark::new(name, Colour::GREEN.faded(38), Shape::Band { rows }));
+    for rows in bands(&rows) {
+        marks.push(Mark::new("", Colour::GREEN.faded(38), Shape::Band { rows }));
     }
     let judged: Vec<&Row> = rows.iter().filter(|r| r.bounds.iter().all(|b| b.is_finite())).collect();
     let inside = |r: &Row| r.nis >= r.bounds[0] && r.nis <= r.bounds[1];
@@ -41,19 +43,31 @@ pub(super) fn panel(series: &NisSeries, x: Axis) -> Panel {
     };
     let outside = |r: &Row| r.bounds.iter().all(|b| b.is_finite()) && !inside(r);
     let disc = |points| Shape::Dots { points, radius: 1.7, hollow: false };
-    marks.push(Mark::new("NIS", Colour::GREY, disc(dots(&|r| !outside(r)))));
-    let out = dots(&outside);
-    if !out.is_empty() {
-        marks.push(Mark::new("NIS outside its band", Colour::VERMILION, disc(out)));
-    }
-    let count = judged.iter().filter(|r| inside(r)).count();
-    let remark = if judged.is_empty() {
-        String::new()
-    } else {
+    let dense = rows.len() > DENSE;
+    let colour = if dense { Colour::PALE } else { Colour::GREY };
+    marks.push(Mark::new("", colour, disc(dots(&|r| !outside(r)))));
+    marks.push(Mark::new("", Colour::VERMILION, disc(dots(&outside))));
+    let mut remark = Vec::new();
+    if !judged.is_empty() {
+        let count = judged.iter().filter(|r| inside(r)).count();
         let share = 100.0 * count as f64 / judged.len() as f64;
-        format!("{}\u{2009}% within the band; 95\u{2009}% expected", number::short(share.round()))
-    };
-    Panel { heading: "NIS".into(), remark, x, y: axis(&rows), marks, ..Panel::default() }
+        remark.push(format!("{}\u{2009}% within", number::short(share.round())));
+    }
+    if dense {
+        // Dots that fill the panel show nothing any more; their mean does.
+        let block = rows.len() / 150;
+        let shape = Shape::Line { points: means(&rows, block), width: 1.3, dashed: false };
+        marks.push(Mark::new("", Colour::INK, shape));
+        remark.push(format!("line: mean of {block} rows"));
+    }
+    let (heading, remark) = ("NIS and its 95\u{2009}% band (χ²)".to_owned(), remark.join(" · "));
+    Panel { heading, remark, x, y: axis(&rows), marks, ..Panel::default() }
+}
+
+/// The mean over each block of rows, at the middle of its time.
+fn means(rows: &[Row], block: usize) -> Vec<[f64; 2]> {
+    let mean = |rows: &[Row], f: fn(&Row) -> f64| rows.iter().map(f).sum::<f64>() / rows.len() as f64;
+    rows.chunks(block.max(1)).map(|rows| [mean(rows, |r| r.time), mean(rows, |r| r.nis)]).collect()
 }
 
 fn axis(rows: &[Row]) -> Axis {

@@ -1,6 +1,6 @@
 //! Where the panels of a track stand on the page.
 
-use super::{StateSeries, Track, TrackFigure, nis, plane, state};
+use super::{Look, StateSeries, Track, TrackFigure, nis, plane, state};
 use crate::figure::plot::{Axis, Block, Figure, Grid, Panel};
 use crate::figure::scale::{Scale, span};
 
@@ -9,52 +9,57 @@ const WIDTH: f64 = 1280.0;
 const ROW: f64 = 122.0;
 /// More states than this are not drawn.
 const MOST_STATES: usize = 48;
+/// With more states than this the plane does not stand beside them.
+const MOST_BESIDE: usize = 12;
 /// A track flatter than this gets the full width.
 const FLAT: f64 = 0.36;
 
 /// Lays out the figure.
 pub(super) fn figure(given: &TrackFigure) -> Figure {
-    let shown = given.tracks.iter().find(|t| !t.states.is_empty() || t.nis.is_some());
+    let index = given.tracks.iter().position(|t| !t.states.is_empty() || t.nis.is_some());
+    let shown = index.and_then(|i| given.tracks.get(i));
     let states: &[StateSeries] = shown.map_or(&[], |t| t.states.as_slice());
     let drawn = &states[..states.len().min(MOST_STATES)];
     let plane = plane::panel(given);
     let nis = shown.and_then(|t| t.nis.as_ref()).map(|n| nis::panel(n, time_axis(given, shown)));
     let pairs = drawn.iter().any(|s| s.truth.is_some());
-    let columns = |group: usize| states_grid(given, shown, drawn, group);
+    let look = Look::of(given, index.unwrap_or(0));
+    let columns = |groups: usize| states_grid(drawn, groups, &look, &time_axis(given, shown));
     let (body, width, height) = match (plane, drawn.len()) {
-        (None, 0) => (grid(1, &[1.0], vec![nis]), WIDTH, 300.0),
+        (None, 0) => (grid(1, &[1.0], vec![Some(nis.unwrap_or_default())]), WIDTH, 300.0),
         (None, n) => {
-            let groups = if pairs { 1 + n / 9 } else { 1 + n / 4 }.min(if pairs { 2 } else { 4 });
-            under(columns(groups), rows(n, groups), nis, None)
+            let groups = groups(n, pairs);
+            under(columns(groups), n.div_ceil(groups), nis, None)
         }
         (Some((plane, ratio)), 0) => {
             let height = (900.0 * ratio).clamp(320.0, 820.0);
-            let below = nis.is_some();
-            let weights = if below { vec![height, 150.0] } else { vec![height] };
-            let body = grid(1, &weights, vec![Some(plane), nis]);
-            (body, 960.0, height + if below { 240.0 } else { 70.0 })
+            let below = if nis.is_some() { 170.0 } else { 0.0 };
+            let weights = if nis.is_some() { vec![height, 150.0] } else { vec![height] };
+            (grid(1, &weights, vec![Some(plane), nis]), 960.0, height + below + 70.0)
         }
-        (Some((plane, ratio)), n) if ratio < FLAT || n > 12 => {
+        (Some((plane, ratio)), n) if ratio < FLAT || n > MOST_BESIDE => {
             let height = (1180.0 * ratio).clamp(240.0, 520.0);
-            let groups = if pairs {
-                2
-            } else if n > 12 {
-                4
-            } else {
-                2
-            };
-            under(columns(groups), rows(n, groups), nis, Some((plane, height)))
+            let groups = groups(n, pairs);
+            under(columns(groups), n.div_ceil(groups), nis, Some((plane, height)))
         }
         (Some((plane, ratio)), n) => {
-            beside((plane, ratio), columns(1 + (n - 1) / 6), rows(n, 1 + (n - 1) / 6), nis, pairs)
+            let groups = n.div_ceil(6);
+            let rows = n.div_ceil(groups);
+            beside((plane, ratio), columns(groups), rows, nis, if pairs { 2 * groups } else { groups })
         }
     };
     let title = given.title.clone();
     Figure { title, notes: notes(given, shown, states.len()), key: true, body, width, height }
 }
 
-fn rows(states: usize, groups: usize) -> usize {
-    states.div_ceil(groups.max(1))
+/// In how many groups side by side the states stand where they have the full width.
+fn groups(states: usize, pairs: bool) -> usize {
+    match (pairs, states) {
+        (true, ..=6) | (false, ..=3) => 1,
+        (true, _) | (false, ..=8) => 2,
+        (false, ..=24) => 3,
+        (false, _) => 4,
+    }
 }
 
 /// The plane, if any, over the states over NIS.
@@ -78,25 +83,24 @@ fn beside(
     states: Block,
     rows: usize,
     nis: Option<Panel>,
-    pairs: bool,
+    columns: usize,
 ) -> (Block, f64, f64) {
     let height = (ROW * rows as f64 + 40.0).max(600.0);
-    let share = match (pairs, ratio > 1.5) {
-        (true, false) => 0.42,
-        (false, false) => 0.5,
-        (_, true) => 0.34,
-    };
+    // A tall track needs less of the width; many columns leave it less.
+    let most = if columns > 1 { 0.42 } else { 0.5 };
+    let width = if columns > 2 { 1.2 * WIDTH } else { WIDTH };
+    let share = ((0.7 * height / ratio + 100.0) / width).clamp(0.3, most);
     let left = match nis {
         None => grid(1, &[1.0], vec![Some(plane)]),
         Some(nis) => {
             // What the plane wants of the height that is left beside labels and headings.
             let room = height - 100.0;
-            let wanted = (ratio * (share * WIDTH - 100.0)).clamp(0.5 * room, room - 120.0);
-            let below = (room - wanted).min(260.0);
+            let wanted = (ratio * (share * width - 100.0)).clamp(0.5 * room, room - 120.0);
+            let below = (room - wanted).min(190.0);
             grid(1, &[room - below, below], vec![Some(plane), Some(nis)])
         }
     };
-    (Block::Row(vec![(share, left), (1.0 - share, states)]), WIDTH, height)
+    (Block::Row(vec![(share, left), (1.0 - share, states)]), width, height)
 }
 
 fn grid(columns: usize, rows: &[f64], cells: Vec<Option<Panel>>) -> Block {
@@ -104,23 +108,20 @@ fn grid(columns: usize, rows: &[f64], cells: Vec<Option<Panel>>) -> Block {
 }
 
 /// The states in so many groups side by side, filled downwards; with a truth, each beside its error.
-fn states_grid(given: &TrackFigure, shown: Option<&Track>, states: &[StateSeries], groups: usize) -> Block {
+fn states_grid(states: &[StateSeries], groups: usize, look: &Look, time: &Axis) -> Block {
     let pairs = states.iter().any(|s| s.truth.is_some());
-    let rows = rows(states.len(), groups).max(1);
+    let rows = states.len().div_ceil(groups);
     let mut cells = Vec::new();
-    for i in 0..rows * groups {
-        let (row, group) = (i / groups, i % groups);
+    for (row, group) in (0..rows).flat_map(|row| (0..groups).map(move |group| (row, group))) {
         let index = group * rows + row;
         // Time is written once under each column.
         let labelled = row + 1 == rows || index + 1 >= states.len();
-        let axis = || Axis { labelled, ..time_axis(given, shown) };
-        let Some(series) = states.get(index) else {
-            cells.extend((0..=usize::from(pairs)).map(|_| None));
-            continue;
-        };
-        cells.push(Some(state::estimate(series, axis(), given.smoothed)));
+        let axis = || Axis { labelled, ..time.clone() };
+        let series = states.get(index);
+        cells.push(series.map(|s| state::estimate(s, axis(), look)));
         if pairs {
-            cells.push(series.truth.as_ref().map(|truth| state::error(series, truth, axis())));
+            let error = |s: &StateSeries| Some(state::error(s, s.truth.as_ref()?, axis(), look));
+            cells.push(series.and_then(error));
         }
     }
     let columns = if pairs { 2 * groups } else { groups };

@@ -1,23 +1,24 @@
 //! The panel of the plane: tracks, their 2σ ellipses, measurements and truth.
 
-use super::{PlaneTrack, TrackFigure};
+use super::{Look, PlaneTrack, TrackFigure};
 use crate::figure::colour::Colour;
 use crate::figure::plot::{Axis, Mark, Panel, Shape};
 
-/// With more tracks than this, only their lines are drawn.
-const MOST_DETAILED: usize = 7;
 /// Ellipses nearer to each other than this, in pixels, would blot.
 const ELLIPSES_APART: f64 = 16.0;
 
 /// The plane, and its height as a share of its width.
 pub(super) fn panel(figure: &TrackFigure) -> Option<(Panel, f64)> {
-    let tracks: Vec<(&str, &PlaneTrack)> =
-        figure.tracks.iter().filter_map(|t| Some((t.name.as_str(), t.plane.as_ref()?))).collect();
+    let tracks: Vec<(Look, &PlaneTrack)> = figure
+        .tracks
+        .iter()
+        .enumerate()
+        .filter_map(|(i, t)| Some((Look::of(figure, i), t.plane.as_ref()?)))
+        .collect();
     if tracks.is_empty() {
         return None;
     }
-    let several = tracks.len() > 1;
-    let detailed = tracks.len() <= MOST_DETAILED;
+    let detailed = tracks.len() <= Look::MOST_NAMED;
     let mut marks = Vec::new();
     let lines = tracks.iter().flat_map(|(_, t)| t.estimate.iter().chain(t.truth.iter().flatten()));
     let ranges = extent(lines.copied(), tracks.iter().flat_map(|(_, t)| t.measurements.iter().copied()));
@@ -28,26 +29,19 @@ pub(super) fn panel(figure: &TrackFigure) -> Option<(Panel, f64)> {
         let shape = Shape::Dots { points: all, radius: 1.9, hollow: true };
         marks.push(Mark::new("measurements", Colour::GREY, shape));
     }
-    for (i, (name, track)) in tracks.iter().enumerate() {
-        let colour = Colour::series(i);
-        let estimate = match (several, figure.smoothed) {
-            (true, _) if detailed => *name,
-            (true, _) => "",
-            (false, true) => "smoothed",
-            (false, false) => "estimate",
-        };
+    for (Look { name, colour }, track) in &tracks {
         if detailed {
             let (centres, covariances) = (track.estimate.clone(), track.covariance.clone());
             let shape = Shape::Ellipses { centres, covariances, sigmas: 2.0, apart: ELLIPSES_APART };
-            marks.push(Mark::new("2σ ellipses", colour, shape));
+            marks.push(Mark::new("2σ ellipses", *colour, shape));
         }
-        if let Some(filtered) = track.filtered.as_ref().filter(|_| figure.smoothed && !several) {
+        if let Some(filtered) = &track.filtered {
             let shape = Shape::Line { points: filtered.clone(), width: 0.9, dashed: false };
             marks.push(Mark::new("filtered", Colour::SKY, shape));
         }
         let width = if detailed { 1.7 } else { 1.1 };
         let shape = Shape::Line { points: track.estimate.clone(), width, dashed: false };
-        marks.push(Mark::new(estimate, colour, shape));
+        marks.push(Mark::new(name, *colour, shape));
     }
     for (_, track) in &tracks {
         if let Some(truth) = &track.truth {
@@ -63,7 +57,7 @@ pub(super) fn panel(figure: &TrackFigure) -> Option<(Panel, f64)> {
     let [x_label, y_label] = figure.plane_labels.clone();
     let axis = |label: String, k: usize| Axis { label, range: ranges.map(|r| r[k]), ..Axis::default() };
     let (x, y) = (axis(x_label, 0), axis(y_label, 1));
-    let panel = Panel { heading: "plane".into(), remark, x, y, equal: true, key: false, marks };
+    let panel = Panel { heading: "track in the plane".into(), remark, x, y, equal: true, key: false, marks };
     Some((panel, ranges.map_or(1.0, aspect)))
 }
 

@@ -1,15 +1,15 @@
 //! Panels of one state: the estimate with its band, and its error against ±2σ.
 
-use super::StateSeries;
+use super::{Look, StateSeries};
 use crate::figure::colour::Colour;
 use crate::figure::number;
 use crate::figure::plot::{Axis, Mark, Panel, Shape};
 
-/// Tint of the ±2σ band.
-const BAND: Colour = Colour::BLUE.faded(44);
+/// Opacity of the ±2σ band.
+const BAND: u8 = 44;
 
 /// The estimate over time.
-pub(super) fn estimate(state: &StateSeries, x: Axis, smoothed: bool) -> Panel {
+pub(super) fn estimate(state: &StateSeries, x: Axis, look: &Look) -> Panel {
     let rows = |f: &dyn Fn(usize) -> f64| -> Vec<[f64; 2]> {
         (0..length(state)).map(|i| [state.time[i], f(i)]).collect()
     };
@@ -21,14 +21,13 @@ pub(super) fn estimate(state: &StateSeries, x: Axis, smoothed: bool) -> Panel {
         .collect();
     let centre = state.mean.iter().chain(state.truth.iter().flatten()).copied();
     let (range, remark) = held(&band, centre);
-    let mut marks = vec![Mark::new("±2σ", BAND, Shape::Band { rows: band })];
-    if let Some(filtered) = state.filtered.as_ref().filter(|_| smoothed) {
+    let mut marks = vec![Mark::new("±2σ", look.colour.faded(BAND), Shape::Band { rows: band })];
+    if let Some(filtered) = state.filtered.as_ref() {
         let shape = Shape::Line { points: of(filtered), width: 0.9, dashed: false };
         marks.push(Mark::new("filtered", Colour::SKY, shape));
     }
-    let name = if smoothed { "smoothed" } else { "estimate" };
     let shape = Shape::Line { points: rows(&|i| state.mean[i]), width: 1.5, dashed: false };
-    marks.push(Mark::new(name, Colour::BLUE, shape));
+    marks.push(Mark::new(&look.name, look.colour, shape));
     if let Some(truth) = &state.truth {
         let shape = Shape::Line { points: of(truth), width: 1.1, dashed: true };
         marks.push(Mark::new("truth", Colour::INK, shape));
@@ -38,7 +37,7 @@ pub(super) fn estimate(state: &StateSeries, x: Axis, smoothed: bool) -> Panel {
 }
 
 /// Estimate minus truth over time, and how much of it lies within ±2σ.
-pub(super) fn error(state: &StateSeries, truth: &[f64], x: Axis) -> Panel {
+pub(super) fn error(state: &StateSeries, truth: &[f64], x: Axis, look: &Look) -> Panel {
     let rows = length(state).min(truth.len());
     let band: Vec<[f64; 3]> =
         (0..rows).map(|i| [state.time[i], -2.0 * state.std[i], 2.0 * state.std[i]]).collect();
@@ -54,9 +53,9 @@ pub(super) fn error(state: &StateSeries, truth: &[f64], x: Axis) -> Panel {
         remark = if remark.is_empty() { within } else { format!("{within} · {remark}") };
     }
     let marks = vec![
-        Mark::new("±2σ", BAND, Shape::Band { rows: band }),
+        Mark::new("±2σ", look.colour.faded(BAND), Shape::Band { rows: band }),
         Mark::new("", Colour::AXIS, Shape::Level { y: 0.0, dashed: false }),
-        Mark::new("error", Colour::VERMILION, Shape::Line { points, width: 1.2, dashed: false }),
+        Mark::new("", Colour::VERMILION, Shape::Line { points, width: 1.2, dashed: false }),
     ];
     let y = Axis { range, ..Axis::default() };
     Panel { heading: format!("error of {}", state.name), remark, x, y, marks, ..Panel::default() }
@@ -109,13 +108,17 @@ mod tests {
         }
     }
 
+    fn look() -> Look {
+        Look { name: "estimate".into(), colour: Colour::BLUE }
+    }
+
     #[test]
     fn a_wide_start_does_not_flatten_the_rest_and_is_told() {
-        let panel = estimate(&series(|i| if i < 3 { 1e4 } else { 0.1 }), Axis::default(), false);
+        let panel = estimate(&series(|i| if i < 3 { 1e4 } else { 0.1 }), Axis::default(), &look());
         let range = panel.y.range.unwrap();
         assert!(range[0] > -2.0 && range[1] < 2.0, "{range:?}");
         assert_eq!(panel.remark, "band cut; it reaches 20\u{2009}000");
-        assert!(estimate(&series(|_| 0.1), Axis::default(), false).y.range.is_none());
+        assert!(estimate(&series(|_| 0.1), Axis::default(), &look()).y.range.is_none());
     }
 
     #[test]
@@ -127,6 +130,6 @@ mod tests {
             .enumerate()
             .map(|(i, m)| if i < 100 { f64::NAN } else { m + if i < 125 { 3.0 } else { 1.0 } })
             .collect();
-        assert!(error(&state, &truth, Axis::default()).remark.starts_with("75\u{2009}% within"));
+        assert!(error(&state, &truth, Axis::default(), &look()).remark.starts_with("75\u{2009}% within"));
     }
 }

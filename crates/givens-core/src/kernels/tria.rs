@@ -46,7 +46,7 @@ pub fn tria<T: Real>(a: &mut [T], rows: usize, columns: usize, stride: usize) ->
             for (l, &v) in lower[used..columns].iter_mut().zip(&row[used..columns]) {
                 *l = (-dot).mul_add(v, *l);
             }
-            lower[used] = lower[used] * flip;
+            lower[used] *= flip;
         }
         row[used] = norm;
         row[used + 1..].fill(T::zero());

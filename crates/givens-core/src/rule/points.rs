@@ -182,7 +182,8 @@ fn from_table<T: Real, G: Map>(
         for j in 0..n {
             let xi = &nodes[j * count..(j + 1) * count];
             // Σ over both points of w y ξ: w (y₊ − y₋) ξ
-            row[j] = (0..count).fold(T::zero(), |sum, l| (weights[l] * (plus[l] - minus[l])).mul_add(xi[l], sum));
+            row[j] =
+                (0..count).fold(T::zero(), |sum, l| (weights[l] * (plus[l] - minus[l])).mul_add(xi[l], sum));
         }
         for l in 0..count {
             let moved = (0..n).fold(T::zero(), |sum, j| row[j].mul_add(nodes[j * count + l], sum));

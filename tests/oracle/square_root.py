@@ -1,4 +1,4 @@
-"""The square-root form in doubles: echelon triangularisation and downdates. Only to check the sixty-digit covariance form."""
+"""The square-root form in doubles, by echelon triangularisation and downdates: only to check the covariance form."""
 
 import numpy as np
 

@@ -12,7 +12,7 @@ use crate::scalar::{Mask, Real};
 ///
 /// ```
 /// use givens_core::kernels::tria;
-/// let mut a = [3.0, 4.0, 0.0,
+/// let mut a = [3.0_f64, 4.0, 0.0,
 ///              0.0, 5.0, 1.0];
 /// let _ = tria(&mut a, 2, 3, 3);
 /// assert!((a[0] - 5.0).abs() < 1e-15 && (a[3] - 4.0).abs() < 1e-15 && (a[4] - 10f64.sqrt()).abs() < 1e-15);

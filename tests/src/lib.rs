@@ -1,8 +1,12 @@
 //! What the tests share: golden values, and comparison in units of a standard deviation.
 
+pub mod choices;
+pub mod exact;
 pub mod ill_conditioned;
+pub mod models;
 pub mod scenario;
 
+use proptest::prelude::ProptestConfig;
 use serde_json::Value;
 use std::path::PathBuf;
 
@@ -26,6 +30,13 @@ pub const SCENARIOS: [&str; 17] = [
     "predicted_fails",
     "conditional_fails",
 ];
+
+/// So many random cases, and `GIVENS_CASES` times as many where that is set.
+#[must_use]
+pub fn cases(count: u32) -> ProptestConfig {
+    let times = std::env::var("GIVENS_CASES").ok().and_then(|times| times.parse().ok()).unwrap_or(1);
+    ProptestConfig::with_cases(count * times)
+}
 
 /// A file of golden values.
 #[must_use]

@@ -198,6 +198,11 @@ impl<X: Method, M, T: Real, B: AsRef<[T]>> Filter<'_, X, M, T, B> {
         &self.memory.as_ref()[at..at + len]
     }
 
+    /// A failure at the present time.
+    pub(crate) fn fail(&self, fault: Fault) -> StepError {
+        StepError { fault, time: self.time, step: self.step }
+    }
+
     /// The time at which the belief holds.
     pub fn time(&self) -> f64 {
         self.time

@@ -203,15 +203,13 @@ fn from_table<T: Real, G: Map>(
     for i in 0..g.outputs() {
         let (plus, minus, at_mean) = images.row(i);
         let reference = if centre.is_some() { at_mean } else { None };
-        // the weights sum to one: averaged about one of the images, the sum over many points stays small, and a component
-        // without spread has no deviation of rounding
-        let near = reference.unwrap_or(plus[0]);
-        let shift = plus
-            .iter()
-            .zip(minus)
-            .zip(weights)
-            .fold(T::zero(), |sum, ((&p, &m), &w)| w.mul_add((p - near) + (m - near), sum));
-        let ybar = near + shift;
+        // the weights sum to one: averaged about the centre or a first average, the sum over many points stays small, and
+        // a component without spread has no deviation of rounding
+        let about = |near: T| {
+            let pairs = plus.iter().zip(minus).zip(weights);
+            near + pairs.fold(T::zero(), |sum, ((&p, &m), &w)| w.mul_add((p - near) + (m - near), sum))
+        };
+        let ybar = about(reference.unwrap_or_else(|| about(T::zero())));
         let row = &mut out.dev[i * out.stride..(i + 1) * out.stride];
         let lost = &mut out.minus[i * minus_columns..(i + 1) * minus_columns];
         for j in 0..n {

@@ -15,6 +15,8 @@ pub struct Passage<'a, T> {
     pub mean: &'a [T],
     /// P_k, filtered; empty in square-root form.
     pub cov: &'a [T],
+    /// P⁻_k, from which measurements made P_k and whose rounding P_k has; empty if unknown or in square-root form.
+    pub before: &'a [T],
     /// m⁻_{k+1}.
     pub predicted_mean: &'a [T],
     /// P⁻_{k+1}; empty in square-root form.
@@ -70,6 +72,15 @@ pub fn step_back<T: Real, F: Form>(
     }
     let product = take(&mut scratch, n * n);
     let scale = take(&mut scratch, n);
+    // the rounding of P_k is that of P⁻_k, and that of G (Pˢ − P⁻) Gᵀ is its terms'; both may be far above P_k
+    for (i, s) in scale.iter_mut().enumerate() {
+        let gain = passage.gain[i * n..(i + 1) * n].iter().enumerate();
+        let sigma = gain.fold(T::zero(), |sum, (j, &g)| {
+            g.abs().mul_add(passage.predicted_cov[j * n + j].sqrt(), sum)
+        });
+        let own = passage.before.get(i * n + i).unwrap_or(&passage.cov[i * n + i]);
+        *s = own.max(sigma * sigma);
+    }
     for (s, &p) in smoothed.cov.iter_mut().zip(passage.predicted_cov) {
         *s -= p;
     }
@@ -77,9 +88,6 @@ pub fn step_back<T: Real, F: Form>(
     smoothed.cov.copy_from_slice(passage.cov);
     add_outer(smoothed.cov, n, n, product, n, passage.gain, n, n, 1.0);
     symmetrise(smoothed.cov, n);
-    for (i, s) in scale.iter_mut().enumerate() {
-        *s = passage.cov[i * n + i];
-    }
     smoothed.factor.copy_from_slice(smoothed.cov);
     lanes(cholesky_scaled(smoothed.factor, n, scale), Matrix::Smoothed)
 }

@@ -1,9 +1,10 @@
 //! The fixed-point smoother: one past state, better known with every measurement (Särkkä & Hartikainen 2010).
 
 use super::back::symmetrise;
+use super::history::for_smoothing;
 use crate::filter::memory::{put_columns, take};
 use crate::filter::predict::multiply;
-use crate::filter::{Filter, Form, Grow, Method, StepError};
+use crate::filter::{Fault, Filter, Form, Grow, Method, StepError};
 use crate::kernels::{add_outer, copy_lower, square, tria};
 use crate::model::Transition;
 use crate::scalar::Real;
@@ -54,12 +55,21 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> FixedPoint<T, B> {
         2 * states + 8 * states * states
     }
 
-    /// Begins at the filter's present time, with its belief, in at least [`memory_len`](Self::memory_len) scalars.
+    /// Begins at the filter's present time, with its belief, in at least [`memory_len`](Self::memory_len) scalars. The
+    /// filter must have been started for smoothing.
+    ///
+    /// # Errors
+    /// It was not, or too little memory.
     pub fn begin<X: Method, M: Transition, C: Grow<T>>(
         filter: &Filter<'_, X, M, T, C>,
         mut memory: B,
-    ) -> Self {
+    ) -> Result<Self, StepError> {
         let n = filter.mean().len();
+        for_smoothing(filter).map_err(|fault| filter.fail(fault))?;
+        let (expected, found) = (Self::memory_len(n), memory.as_mut().len());
+        if found < expected {
+            return Err(filter.fail(Fault::Length { of: "the fixed point's memory", expected, found }));
+        }
         let parts = parts(n, memory.as_mut());
         parts.mean.copy_from_slice(filter.mean());
         filter.write_cov(parts.cov);
@@ -67,7 +77,7 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> FixedPoint<T, B> {
         for (i, b) in parts.chain.iter_mut().enumerate() {
             *b = if i % (n + 1) == 0 { T::one() } else { T::zero() };
         }
-        Self { states: n, memory, scalar: PhantomData }
+        Ok(Self { states: n, memory, scalar: PhantomData })
     }
 
     /// Predicts with a filter that was started for smoothing, and notes what the prediction forgets.

@@ -2,7 +2,7 @@
 
 use super::back::{Passage, back_scratch, step_back};
 use crate::filter::memory::take;
-use crate::filter::{Belief, Filter, Form, Grow, Method, Prior, StepError};
+use crate::filter::{Belief, Fault, Filter, Form, Grow, Method, Prior, StepError};
 use crate::model::Transition;
 use crate::scalar::Real;
 use core::marker::PhantomData;
@@ -53,15 +53,34 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
         self.count == 0
     }
 
-    fn record(&mut self, slot: usize) -> &mut [T] {
-        let len = Self::record_len(self.states, self.square_root);
-        &mut self.memory.as_mut()[slot * len..(slot + 1) * len]
+    /// Whether a belief of n `states` in this form goes with these records, and these into the memory.
+    fn room<F: Form>(&mut self, states: usize) -> Result<(), Fault> {
+        let record = |n, square_root| Self::record_len(n, square_root);
+        let fixed = Self::memory_len(self.states, self.square_root, 0);
+        for (of, expected, found) in [
+            ("a record of the history", record(states, F::SQUARE_ROOT), record(self.states, self.square_root)),
+            ("the history's memory", fixed, fixed.min(self.memory.as_mut().len())),
+        ] {
+            if expected != found {
+                return Err(Fault::Length { of, expected, found });
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether the filter goes with this history.
+    fn fits<X: Method, M: Transition, C: Grow<T>>(
+        &mut self,
+        filter: &Filter<'_, X, M, T, C>,
+    ) -> Result<(), StepError> {
+        let room = self.room::<X::Form>(filter.mean().len());
+        room.and_then(|()| for_smoothing(filter)).map_err(|fault| filter.fail(fault))
     }
 
     /// Predicts, and records the update. The filter must have been started for smoothing.
     ///
     /// # Errors
-    /// Those of [`Filter::predict`]; nothing is recorded then.
+    /// Those of [`Filter::predict`], or a filter that does not go with this history; nothing is recorded then.
     pub fn predict<X: Method, M: Transition, C: Grow<T>>(
         &mut self,
         filter: &mut Filter<'_, X, M, T, C>,
@@ -71,14 +90,21 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
         if self.capacity == 0 {
             return filter.predict(t);
         }
-        let slot = (self.oldest + self.count) % self.capacity;
-        let mut before = self.record(slot);
-        take(&mut before, n).copy_from_slice(filter.mean());
+        self.fits(filter)?;
+        // the belief before waits in memory of the way back: in a full ring, its record is still the oldest one's
+        let (before, ..) = self.carve(square);
+        before.mean.copy_from_slice(filter.mean());
         if square > 0 {
-            filter.write_cov(take(&mut before, square));
+            filter.write_cov(before.cov);
         }
         filter.predict(t)?;
-        let mut after = &mut self.record(slot)[n + square..];
+        let slot = (self.oldest + self.count) % self.capacity;
+        let len = Self::record_len(n, self.square_root);
+        let (records, mut belief) = self.memory.as_mut().split_at_mut(self.capacity * len);
+        let mut after = &mut records[slot * len..(slot + 1) * len];
+        take(&mut after, n).copy_from_slice(take(&mut belief, n));
+        take(&mut belief, n * n);
+        take(&mut after, square).copy_from_slice(take(&mut belief, square));
         take(&mut after, n).copy_from_slice(filter.mean());
         if square > 0 {
             filter.write_cov(take(&mut after, square));
@@ -106,6 +132,7 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
         steps: usize,
         visit: impl FnMut(usize, &Belief<T>),
     ) -> Result<(), StepError> {
+        self.fits(filter)?;
         let square = if self.square_root { 0 } else { self.states * self.states };
         let (belief, ..) = self.carve(square);
         belief.mean.copy_from_slice(filter.mean());
@@ -127,6 +154,7 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
         steps: usize,
         visit: impl FnMut(usize, &Belief<T>),
     ) -> Result<(), StepError> {
+        self.room::<F>(start.mean.len()).map_err(|fault| StepError { fault, time: start.time, step: 0 })?;
         let square = if F::SQUARE_ROOT { 0 } else { self.states * self.states };
         let (belief, ..) = self.carve(square);
         let put = |to: &mut [T], from: &[f64]| to.iter_mut().zip(from).for_each(|(to, &x)| *to = T::of(x));
@@ -159,17 +187,22 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
         let square = if F::SQUARE_ROOT { 0 } else { n * n };
         let (mut belief, records, rest) = self.carve(square);
         visit(0, &belief);
-        for age in 1..=steps.min(count - skip.min(count)) {
+        let held = count - skip.min(count);
+        let record = |age: usize| {
             let slot = (newest - age) % capacity;
-            let mut record = &records[slot * len..(slot + 1) * len];
+            &records[slot * len..(slot + 1) * len]
+        };
+        for age in 1..=steps.min(held) {
+            let mut record_left = record(age);
             let mut next = |len: usize| {
-                let (head, tail) = record.split_at(len);
-                record = tail;
+                let (head, tail) = record_left.split_at(len);
+                record_left = tail;
                 head
             };
             let passage = Passage {
                 mean: next(n),
                 cov: next(square),
+                before: if age < held { &record(age + 1)[2 * n + square..][..square] } else { &[] },
                 predicted_mean: next(n),
                 predicted_cov: next(square),
                 gain: next(n * n),
@@ -184,4 +217,15 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
         }
         Ok(())
     }
+}
+
+/// A filter must leave what its smoother needs.
+pub(super) fn for_smoothing<X: Method, M: Transition, T: Real, C: Grow<T>>(
+    filter: &Filter<'_, X, M, T, C>,
+) -> Result<(), Fault> {
+    let (expected, found) = (filter.factor().len(), filter.backward().0.len());
+    if expected == found {
+        return Ok(());
+    }
+    Err(Fault::Length { of: "the gain of a filter that was not started for smoothing", expected, found })
 }

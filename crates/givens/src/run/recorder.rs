@@ -60,16 +60,17 @@ impl<'m, X: Method, M: Transition, H: Observation> Recorder<'m, X, M, H> {
             last: (prior.mean().to_vec(), prior.factor().to_vec(), prior.cov().to_vec()),
             predicted: false,
         };
-        recorder.begin_point(t0);
+        recorder.begin_point(t0)?;
         Ok(recorder)
     }
 
     /// Begins the fixed point if its time has come.
-    fn begin_point(&mut self, t: f64) {
+    fn begin_point(&mut self, t: f64) -> Result<(), StepError> {
         if self.point.is_none() && self.goal == Goal::Point(t) {
             let memory = vec![0.0; FixedPoint::<f64, Vec<f64>>::memory_len(self.filter.mean().len())];
-            self.point = Some(FixedPoint::begin(&self.filter, memory));
+            self.point = Some(FixedPoint::begin(&self.filter, memory)?);
         }
+        Ok(())
     }
 
     /// Takes in one row and writes it to `out`; `before` is the row above it.
@@ -91,7 +92,7 @@ impl<'m, X: Method, M: Transition, H: Observation> Recorder<'m, X, M, H> {
         let waiting = matches!(self.goal, Goal::Point(_)) && self.point.is_none();
         match &mut self.point {
             Some(point) => point.update(&self.filter),
-            None => self.begin_point(row.time),
+            None => self.begin_point(row.time)?,
         }
         if waiting && self.point.is_none() {
             out.truncate(out.len());

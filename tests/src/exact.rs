@@ -1,0 +1,154 @@
+//! The answers of linear problems, by plain matrix algebra and by three roads that have nothing in common: the Kalman
+//! filter with the Rauch–Tung–Striebel smoother, stacked least squares, and conditioning of one large Gaussian.
+
+use crate::models::Problem;
+use nalgebra::{DMatrix, DVector};
+
+/// A mean and a covariance.
+pub type Moments = (DVector<f64>, DMatrix<f64>);
+
+/// What a filter and a smoother should find, row by row.
+pub struct Answer {
+    /// Before each row's measurement.
+    pub predicted: Vec<Moments>,
+    /// After it.
+    pub filtered: Vec<Moments>,
+    /// Given all rows.
+    pub smoothed: Vec<Moments>,
+    /// Of each row.
+    pub log_likelihood: Vec<f64>,
+}
+
+/// H, R and z of the components of row `k` that are there.
+fn measured(problem: &Problem, k: usize) -> (DMatrix<f64>, DMatrix<f64>, DVector<f64>) {
+    let z = &problem.z[k];
+    let there: Vec<usize> = (0..z.len()).filter(|&i| !z[i].is_nan()).collect();
+    let sensor = problem.sensor.only(&there);
+    (sensor.h, sensor.r, DVector::from_iterator(there.len(), there.iter().map(|&i| z[i])))
+}
+
+/// Of a positive definite matrix.
+fn inverse(matrix: &DMatrix<f64>) -> DMatrix<f64> {
+    matrix.clone().cholesky().unwrap().inverse()
+}
+
+/// ln N(ν; 0, S).
+fn log_density(nu: &DVector<f64>, s: &DMatrix<f64>) -> f64 {
+    let ln_det = s.clone().symmetric_eigenvalues().iter().map(|x| x.ln()).sum::<f64>();
+    -0.5 * ((nu.transpose() * inverse(s) * nu)[(0, 0)]
+        + ln_det
+        + nu.len() as f64 * std::f64::consts::TAU.ln())
+}
+
+/// The Kalman filter and the Rauch–Tung–Striebel smoother.
+#[must_use]
+pub fn kalman(problem: &Problem) -> Answer {
+    let (f, q) = (&problem.model.f, &problem.model.q);
+    let (mut predicted, mut filtered, mut log_likelihood) = (Vec::new(), Vec::new(), Vec::new());
+    let mut belief: Moments = (DVector::from_vec(problem.mean.clone()), problem.cov.clone());
+    for k in 0..problem.z.len() {
+        let (mean, cov) = (f * &belief.0, f * &belief.1 * f.transpose() + q);
+        predicted.push((mean.clone(), cov.clone()));
+        let (h, r, z) = measured(problem, k);
+        belief = if z.is_empty() {
+            log_likelihood.push(0.0);
+            (mean, cov)
+        } else {
+            let (nu, s) = (z - &h * &mean, &h * &cov * h.transpose() + r);
+            let gain = &cov * h.transpose() * inverse(&s);
+            log_likelihood.push(log_density(&nu, &s));
+            (mean + &gain * nu, &cov - &gain * s * gain.transpose())
+        };
+        filtered.push(belief.clone());
+    }
+    let mut smoothed = vec![belief];
+    for k in (0..filtered.len() - 1).rev() {
+        let ((mean, cov), (m, p)) = (&filtered[k], &predicted[k + 1]);
+        let gain = cov * f.transpose() * p.clone().pseudo_inverse(1e-12).unwrap();
+        let (next_mean, next_cov) = &smoothed[smoothed.len() - 1];
+        smoothed.push((mean + &gain * (next_mean - m), cov + &gain * (next_cov - p) * gain.transpose()));
+    }
+    smoothed.reverse();
+    Answer { predicted, filtered, smoothed, log_likelihood }
+}
+
+/// All states at once by least squares: the residuals of prior, transitions and measurements, each divided by the root of
+/// its covariance, which must have an inverse. The states at times 1, 2, …
+#[must_use]
+pub fn least_squares(problem: &Problem) -> Vec<Moments> {
+    let (n, count) = (problem.mean.len(), problem.z.len());
+    let white = |cov: &DMatrix<f64>| {
+        let eye = DMatrix::identity(cov.nrows(), cov.nrows());
+        cov.clone().cholesky().unwrap().l().solve_lower_triangular(&eye).unwrap()
+    };
+    let size = n * (count + 1);
+    let (mut information, mut right) = (DMatrix::zeros(size, size), DVector::zeros(size));
+    let mut add = |jacobian: DMatrix<f64>, target: DVector<f64>, cov: &DMatrix<f64>| {
+        let (jacobian, target) = (white(cov) * jacobian, white(cov) * target);
+        information += jacobian.transpose() * &jacobian;
+        right += jacobian.transpose() * target;
+    };
+    let place = |k: usize, block: &DMatrix<f64>| {
+        let mut wide = DMatrix::zeros(block.nrows(), size);
+        wide.columns_mut(n * k, n).copy_from(block);
+        wide
+    };
+    let eye = DMatrix::identity(n, n);
+    add(place(0, &eye), DVector::from_vec(problem.mean.clone()), &problem.cov);
+    for k in 0..count {
+        add(place(k + 1, &eye) - place(k, &problem.model.f), DVector::zeros(n), &problem.model.q);
+        let (h, r, z) = measured(problem, k);
+        if !z.is_empty() {
+            add(place(k + 1, &h), z, &r);
+        }
+    }
+    let cov = inverse(&information);
+    let mean = &cov * right;
+    (1..=count).map(|k| pick(&mean, &cov, k, n)).collect()
+}
+
+/// All states at once as one Gaussian, conditioned on the first `until` rows; any covariance may be singular but that of
+/// the measurements. The states at times 0, 1, …
+#[must_use]
+pub fn conditioned(problem: &Problem, until: usize) -> Vec<Moments> {
+    let (n, count) = (problem.mean.len(), problem.z.len());
+    let size = n * (count + 1);
+    let (mut mean, mut cov) = (DVector::zeros(size), DMatrix::zeros(size, size));
+    mean.rows_mut(0, n).copy_from_slice(&problem.mean);
+    cov.view_mut((0, 0), (n, n)).copy_from(&problem.cov);
+    for k in 1..=count {
+        let f = &problem.model.f;
+        let next = f * mean.rows(n * (k - 1), n);
+        mean.rows_mut(n * k, n).copy_from(&next);
+        // Cov[x_k, x_j] = F Cov[x_{k−1}, x_j], and of x_k with itself Q more
+        let across = f * cov.view((n * (k - 1), 0), (n, n * k));
+        cov.view_mut((n * k, 0), (n, n * k)).copy_from(&across);
+        cov.view_mut((0, n * k), (n * k, n)).copy_from(&across.transpose());
+        let own = f * cov.view((n * (k - 1), n * k), (n, n)) + &problem.model.q;
+        cov.view_mut((n * k, n * k), (n, n)).copy_from(&own);
+    }
+    let parts: Vec<_> =
+        (0..until).map(|k| (k, measured(problem, k))).filter(|(_, of)| !of.2.is_empty()).collect();
+    let rows: usize = parts.iter().map(|(_, of)| of.2.len()).sum();
+    let (mut h, mut r, mut z) =
+        (DMatrix::zeros(rows, size), DMatrix::zeros(rows, rows), DVector::zeros(rows));
+    let mut at = 0;
+    for (k, (h_k, r_k, z_k)) in parts {
+        let d = z_k.len();
+        h.view_mut((at, n * (k + 1)), (d, n)).copy_from(&h_k);
+        r.view_mut((at, at), (d, d)).copy_from(&r_k);
+        z.rows_mut(at, d).copy_from(&z_k);
+        at += d;
+    }
+    if rows > 0 {
+        let gain = &cov * h.transpose() * inverse(&(&h * &cov * h.transpose() + r));
+        mean += &gain * (z - &h * &mean);
+        cov -= &gain * &h * cov.clone();
+    }
+    (0..=count).map(|k| pick(&mean, &cov, k, n)).collect()
+}
+
+/// State `k` of the stack.
+fn pick(mean: &DVector<f64>, cov: &DMatrix<f64>, k: usize, n: usize) -> Moments {
+    (mean.rows(n * k, n).into_owned(), cov.view((n * k, n * k), (n, n)).into_owned())
+}

@@ -32,6 +32,12 @@ fn inverse(matrix: &DMatrix<f64>) -> DMatrix<f64> {
     matrix.clone().cholesky().unwrap().inverse()
 }
 
+/// What makes noise of this covariance white.
+fn white(cov: &DMatrix<f64>) -> DMatrix<f64> {
+    let eye = DMatrix::identity(cov.nrows(), cov.nrows());
+    cov.clone().cholesky().unwrap().l().solve_lower_triangular(&eye).unwrap()
+}
+
 /// ln N(ν; 0, S).
 fn log_density(nu: &DVector<f64>, s: &DMatrix<f64>) -> f64 {
     let ln_det = s.clone().symmetric_eigenvalues().iter().map(|x| x.ln()).sum::<f64>();
@@ -77,10 +83,6 @@ pub fn kalman(problem: &Problem) -> Answer {
 #[must_use]
 pub fn least_squares(problem: &Problem) -> Vec<Moments> {
     let (n, count) = (problem.mean.len(), problem.z.len());
-    let white = |cov: &DMatrix<f64>| {
-        let eye = DMatrix::identity(cov.nrows(), cov.nrows());
-        cov.clone().cholesky().unwrap().l().solve_lower_triangular(&eye).unwrap()
-    };
     let size = n * (count + 1);
     let (mut information, mut right) = (DMatrix::zeros(size, size), DVector::zeros(size));
     let mut add = |jacobian: DMatrix<f64>, target: DVector<f64>, cov: &DMatrix<f64>| {
@@ -107,45 +109,50 @@ pub fn least_squares(problem: &Problem) -> Vec<Moments> {
     (1..=count).map(|k| pick(&mean, &cov, k, n)).collect()
 }
 
-/// All states at once as one Gaussian, conditioned on the first `until` rows; any covariance may be singular but that of
-/// the measurements. The states at times 0, 1, …
+/// All states at once as a linear map A of white noise ξ, which the measurements of the first `until` rows then tell about:
+/// least squares of [B; I] ξ = [whitened z; 0] by QR. Any covariance may be singular but that of the measurements. The
+/// states at times 0, 1, …
 #[must_use]
 pub fn conditioned(problem: &Problem, until: usize) -> Vec<Moments> {
     let (n, count) = (problem.mean.len(), problem.z.len());
-    let size = n * (count + 1);
-    let (mut mean, mut cov) = (DVector::zeros(size), DMatrix::zeros(size, size));
+    let (f, size) = (&problem.model.f, n * (count + 1));
+    let (mut mean, mut a) = (DVector::zeros(size), DMatrix::zeros(size, size));
     mean.rows_mut(0, n).copy_from_slice(&problem.mean);
-    cov.view_mut((0, 0), (n, n)).copy_from(&problem.cov);
+    a.view_mut((0, 0), (n, n)).copy_from(&root(&problem.cov));
     for k in 1..=count {
-        let f = &problem.model.f;
         let next = f * mean.rows(n * (k - 1), n);
         mean.rows_mut(n * k, n).copy_from(&next);
-        // Cov[x_k, x_j] = F Cov[x_{k−1}, x_j], and of x_k with itself Q more
-        let across = f * cov.view((n * (k - 1), 0), (n, n * k));
-        cov.view_mut((n * k, 0), (n, n * k)).copy_from(&across);
-        cov.view_mut((0, n * k), (n * k, n)).copy_from(&across.transpose());
-        let own = f * cov.view((n * (k - 1), n * k), (n, n)) + &problem.model.q;
-        cov.view_mut((n * k, n * k), (n, n)).copy_from(&own);
+        let next = f * a.rows(n * (k - 1), n);
+        a.rows_mut(n * k, n).copy_from(&next);
+        a.view_mut((n * k, n * k), (n, n)).copy_from(&root(&problem.model.q));
     }
-    let parts: Vec<_> =
-        (0..until).map(|k| (k, measured(problem, k))).filter(|(_, of)| !of.2.is_empty()).collect();
-    let rows: usize = parts.iter().map(|(_, of)| of.2.len()).sum();
-    let (mut h, mut r, mut z) =
-        (DMatrix::zeros(rows, size), DMatrix::zeros(rows, rows), DVector::zeros(rows));
-    let mut at = 0;
-    for (k, (h_k, r_k, z_k)) in parts {
-        let d = z_k.len();
-        h.view_mut((at, n * (k + 1)), (d, n)).copy_from(&h_k);
-        r.view_mut((at, at), (d, d)).copy_from(&r_k);
-        z.rows_mut(at, d).copy_from(&z_k);
-        at += d;
+    let (mut rows, mut target) = (DMatrix::zeros(0, size), DVector::zeros(0));
+    for k in 0..until {
+        let (h, r, z) = measured(problem, k);
+        let at = rows.nrows();
+        rows = rows.insert_rows(at, z.len(), 0.0);
+        target = target.insert_rows(at, z.len(), 0.0);
+        let white = white(&r);
+        rows.rows_mut(at, z.len()).copy_from(&(&white * &h * a.rows(n * (k + 1), n)));
+        target.rows_mut(at, z.len()).copy_from(&(white * (z - h * mean.rows(n * (k + 1), n))));
     }
-    if rows > 0 {
-        let gain = &cov * h.transpose() * inverse(&(&h * &cov * h.transpose() + r));
-        mean += &gain * (z - &h * &mean);
-        cov -= &gain * &h * cov.clone();
-    }
+    let at = rows.nrows();
+    rows = rows.insert_rows(at, size, 0.0);
+    rows.view_mut((at, 0), (size, size)).fill_with_identity();
+    let qr = rows.qr();
+    let x = qr.q().rows(0, at).transpose() * target;
+    let upper = qr.r();
+    mean += &a * upper.solve_upper_triangular(&x).unwrap();
+    let factor = a * upper.solve_upper_triangular(&DMatrix::identity(size, size)).unwrap();
+    let cov = &factor * factor.transpose();
     (0..=count).map(|k| pick(&mean, &cov, k, n)).collect()
+}
+
+/// Any root of a covariance that may be singular.
+fn root(cov: &DMatrix<f64>) -> DMatrix<f64> {
+    let eigen = cov.clone().symmetric_eigen();
+    let scales = eigen.eigenvalues.map(|x| x.max(0.0).sqrt());
+    eigen.eigenvectors * DMatrix::from_diagonal(&scales)
 }
 
 /// State `k` of the stack.

@@ -9,7 +9,8 @@ use crate::scalar::{Mask, Real};
 /// `v` (length n) is used up, and the triangle above the diagonal, which must be zero, stays so. The square of pivot k
 /// is r² = L_kk² − v_k², known to τ = e max(L_kk, |v_k|), where e is 64 ε ‖row k‖ and what the errors of the rows
 /// above have made of it: below −τ it is the failure that health names; within τ of zero the column is zero and the
-/// downdate ends, unless L_kk and v_k were themselves zero to rounding, when it goes on with the next row.
+/// downdate ends. Where L_kk and v_k are themselves zero to rounding, what stands below L_kk is rotated into the
+/// columns after it, and the downdate goes on with the next row.
 ///
 /// ```
 /// use givens_core::kernels::downdate;
@@ -32,7 +33,10 @@ pub fn downdate<T: Real>(l: &mut [T], n: usize, stride: usize, v: &mut [T]) -> H
         }
         let size = pivot.max(vk.abs());
         let rounding = T::of(64.0 * T::EPSILON) * own;
-        let absent = size.le(rounding) & !untouched;
+        let absent = size.le(rounding);
+        if absent.any() {
+            fold(l, n, stride, k, absent);
+        }
         let spent = r2.abs().le(rounding * size) & !untouched & !absent;
         health.note(!untouched & !absent & !(-(rounding * size)).le(r2), k);
         let cleared = spent | absent;
@@ -57,8 +61,40 @@ pub fn downdate<T: Real>(l: &mut [T], n: usize, stride: usize, v: &mut [T]) -> H
     health
 }
 
+/// Rotates what stands below pivot k into the columns after it, in the lanes of `absent`: that of a pivot of rounding may
+/// be as large as any other column.
+#[inline(never)]
+fn fold<T: Real>(l: &mut [T], n: usize, stride: usize, k: usize, absent: T::Mask) {
+    for i in k + 1..n {
+        let below = T::select(absent, l[i * stride + k], T::zero());
+        let still = below.same(T::zero());
+        if still.all() {
+            continue;
+        }
+        let diagonal = l[i * stride + i];
+        let norm = diagonal.hypot(below);
+        let (c, s) =
+            (T::select(still, T::one(), diagonal / norm), T::select(still, T::zero(), below / norm));
+        for row in l.chunks_mut(stride).take(n).skip(i) {
+            let (x, y) = (row[i], row[k]);
+            row[i] = s.mul_add(y, c * x);
+            row[k] = c * y - s * x;
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
+    #[test]
+    fn a_pivot_of_rounding_does_not_take_its_column_with_it() {
+        let mut l = [1.0, 0.0, 0.0, 2.0, 1e-17, 0.0, 3.0, 4.0, 5.0];
+        let mut v = [0.0, 1e-17, 1.0];
+        assert!(super::downdate(&mut l, 3, 3, &mut v).failed().is_none());
+        assert_eq!((l[4], l[7]), (0.0, 0.0));
+        // the variance of the last row, 9 + 16 + 25, less 1
+        assert!((l[6] * l[6] + l[8] * l[8] - 49.0).abs() < 1e-13);
+    }
+
     #[test]
     fn a_zero_pivot_of_both_ends_its_column_only() {
         let mut l = [0.0, 0.0, 0.0, 2.0];

@@ -78,7 +78,9 @@ pub fn model(args: &ModelArgs) -> Result<Model, Stop> {
 /// KEY=VALUE.
 fn pair<'a>(option: &str, text: &'a str) -> Result<(&'a str, &'a str), Stop> {
     match text.split_once('=') {
-        Some((key, value)) if !key.trim().is_empty() && !value.trim().is_empty() => Ok((key.trim(), value.trim())),
+        Some((key, value)) if !key.trim().is_empty() && !value.trim().is_empty() => {
+            Ok((key.trim(), value.trim()))
+        }
         _ => Err(Stop::input(format!("{option} {text}: write it as name=value"))),
     }
 }

@@ -14,7 +14,10 @@ pub fn check(args: &CheckArgs) -> Result<(), Stop> {
     let choice = choose(&model, args.method.method.as_deref(), &settings(&args.method)?)?;
     let mut parts = format!("{}: rule {}, form {}", choice.name, choice.rule.word(), choice.form.word());
     if choice.form == givens::registry::FormName::SquareRoot {
-        parts += &format!(", update {}", if choice.block == givens::filter::Block::Joint { "joint" } else { "separate" });
+        parts += &format!(
+            ", update {}",
+            if choice.block == givens::filter::Block::Joint { "joint" } else { "separate" }
+        );
     }
     stdout::write(|out| tell(out, &model, &parts))
 }
@@ -26,7 +29,8 @@ fn tell(out: &mut dyn Write, model: &Model, method: &str) -> io::Result<()> {
         Some(step) => format!("steps of {step}"),
         None => "one transition per gap".to_owned(),
     };
-    let noisy = if model.transition.noise() == givens::model::Noise::Root(0) { ", no process noise" } else { "" };
+    let noisy =
+        if model.transition.noise() == givens::model::Noise::Root(0) { ", no process noise" } else { "" };
     writeln!(out, "  time        {step}{noisy}")?;
     let begins = match (model.time, &model.start) {
         (Some(time), _) => format!("at {time}"),

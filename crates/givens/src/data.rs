@@ -57,21 +57,26 @@ pub enum DataError {
     },
 }
 
-impl std::fmt::Display for DataError {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+impl core::fmt::Display for DataError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match *self {
             Self::Time { row, time } => {
-                write!(f, "row {row}: time {time} is before the row above, or not finite; rows stand in time order")
+                write!(
+                    f,
+                    "row {row}: time {time} is before the row above, or not finite; rows stand in time order"
+                )
             }
             Self::Infinite { row, component } => {
                 write!(f, "row {row}: component {component} is infinite; a missing component is NaN")
             }
-            Self::Length { row, expected, found } => write!(f, "row {row}: expected length {expected}, found {found}"),
+            Self::Length { row, expected, found } => {
+                write!(f, "row {row}: expected length {expected}, found {found}")
+            }
         }
     }
 }
 
-impl std::error::Error for DataError {}
+impl core::error::Error for DataError {}
 
 impl Data {
     /// No rows yet, of measurements of length `measures`.

@@ -66,12 +66,11 @@ fn regular(model: &Model, args: &SimulateArgs) -> Result<Tracks, Stop> {
     if !(every > 0.0 && every.is_finite()) {
         return Err(Stop::input(format!("--every {every}: must be above zero")));
     }
-    if let Some(step) = model.transition.period() {
-        if (every / step - (every / step).round()).abs() > 1e-6 {
-            return Err(Stop::input(format!(
-                "--every {every}: not a whole number of the model's steps of {step}"
-            )));
-        }
+    let part = |step: &f64| (every / step - (every / step).round()).abs() > 1e-6;
+    if let Some(step) = model.transition.period().filter(part) {
+        return Err(Stop::input(format!(
+            "--every {every}: not a whole number of the model's steps of {step}"
+        )));
     }
     if !model.controls.is_empty() {
         let names = model.controls.join(", ");

@@ -35,7 +35,8 @@ pub trait Method: Copy {
         let n = model.states();
         self.rule().check(n).map_err(|error| StepError { fault: Fault::Option(error), time: t0, step: 0 })?;
         let sizes = Sizes::of_model(model, self.rule().shape(n));
-        let memory = alloc::vec![0.0; Filter::<Self, M, f64, alloc::vec::Vec<f64>>::memory_len(self, sizes, false)];
+        let memory =
+            alloc::vec![0.0; Filter::<Self, M, f64, alloc::vec::Vec<f64>>::memory_len(self, sizes, false)];
         let prior = Prior { time: t0, mean: prior.mean(), factor: prior.factor(), cov: prior.cov() };
         Filter::start_in(*self, model, sizes, false, prior, memory)
     }

@@ -171,7 +171,11 @@ impl<'m, X: Method, M: Transition, T: Real, B: AsMut<[T]>> Filter<'m, X, M, T, B
     /// A wrong number of them, or one that is not finite.
     pub fn set_parameters(&mut self, p: &[f64]) -> Result<(), StepError> {
         let (time, step) = (self.time, self.step);
-        set(self.parts().p, p, "parameters", Quantity::Parameter).map_err(|fault| StepError { fault, time, step })
+        set(self.parts().p, p, "parameters", Quantity::Parameter).map_err(|fault| StepError {
+            fault,
+            time,
+            step,
+        })
     }
 }
 

@@ -175,11 +175,13 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
                 gain: next(n * n),
                 conditional: next(n * n - square),
             };
-            step_back::<T, F>(&passage, &mut belief, rest)
-                .map_err(|fault| StepError { fault, time, step: newest - age })?;
+            step_back::<T, F>(&passage, &mut belief, rest).map_err(|fault| StepError {
+                fault,
+                time,
+                step: newest - age,
+            })?;
             visit(age, &belief);
         }
         Ok(())
     }
 }
-

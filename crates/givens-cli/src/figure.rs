@@ -52,7 +52,10 @@ fn track(plan: &Plan, session: &Session, i: usize) -> Track {
         std: (0..est.len()).map(|row| est.std(row, state)).collect(),
         filtered: est.is_smoothed().then(|| series(state, &est.filtered_mean)),
         // a state that the truth does not know has no error to draw
-        truth: truth.as_ref().map(|truth| series(state, &truth.states)).filter(|x| x.iter().any(|x| !x.is_nan())),
+        truth: truth
+            .as_ref()
+            .map(|truth| series(state, &truth.states))
+            .filter(|x| x.iter().any(|x| !x.is_nan())),
     });
     let plane = plan.model.plane.map(|[x, y]| {
         let pairs =

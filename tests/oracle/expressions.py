@@ -1,4 +1,4 @@
-"""The expressions of a model file, evaluated in fifty digits on many points at once."""
+"""The expressions of a model file, evaluated in sixty digits on many points at once."""
 
 import ast
 
@@ -7,8 +7,10 @@ from mpmath import mp, mpf
 
 from precise import elementwise
 
-FUNCTIONS = {name: elementwise(getattr(mp, name)) for name in
-             "sin cos tan asin acos atan sinh cosh tanh exp sqrt log10 floor".split()}
+FUNCTIONS = {
+    name: elementwise(getattr(mp, name))
+    for name in "sin cos tan asin acos atan sinh cosh tanh exp sqrt log10 floor".split()
+}
 FUNCTIONS |= {
     "log": elementwise(mp.ln),
     "abs": elementwise(abs),

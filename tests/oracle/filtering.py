@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from mpmath import mp, mpf
 
-from linear import NotDefinite, divide, factor, solve_lower
+from linear import NotDefinite, divide, factor, solve_lower, without_rounding
 
 
 def wrap(a, period):
@@ -46,13 +46,14 @@ def predict(model, rule, mean, cov, t, dt, u):
     unmoved = lambda y, centre: y
     g = lambda x: model.transition(x, t, dt, u)
     m, p, cross = rule.moments(g, mean, factor(cov, "posterior covariance"), unmoved)
-    p = p + model.process_noise(t, dt, u)
+    p = without_rounding(p, m) + model.process_noise(t, dt, u)
     factor(p, "predicted covariance")
     return m, p, cross
 
 
 def move_to(periods):
     """Brings the images of an angle to the branch of the image of the mean."""
+
     def move(y, centre):
         if not any(periods):
             return y
@@ -62,6 +63,7 @@ def move_to(periods):
                 r = reference[i, 0]
                 y[i] = [r + wrap(v - r, period) for v in y[i]]
         return y
+
     return move
 
 
@@ -75,8 +77,10 @@ def update(model, rule, row, mean, cov):
     for i in range(d):
         if s_zz[i, i] == 0:
             raise NotDefinite("innovation covariance", i)
-    nu = np.array([z - e if period is None else wrap(z - e, period)
-                   for z, e, period in zip(row.z, z_hat, row.periods)], dtype=object)
+    nu = np.array(
+        [z - e if period is None else wrap(z - e, period) for z, e, period in zip(row.z, z_hat, row.periods)],
+        dtype=object,
+    )
     gain = divide(p_xz, s_zz)
     white = solve_lower(s_zz, nu)
     nis = sum(e**2 for e in white)
@@ -123,6 +127,7 @@ def run_filter(model, rule, rows):
         except NotDefinite as error:
             run.failed = {"row": k, "time": float(row.time), "matrix": error.matrix}
             return run
-        run.rows.append(RowResult(len(run.nodes) - 1, *prior, node.mean, node.cov, z_hat, nu, p_zz, nis,
-                                  log_likelihood))
+        run.rows.append(
+            RowResult(len(run.nodes) - 1, *prior, node.mean, node.cov, z_hat, nu, p_zz, nis, log_likelihood)
+        )
     return run

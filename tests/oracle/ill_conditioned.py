@@ -36,8 +36,12 @@ def posterior(delta, corner, z):
 
 def case(delta, corner, z):
     mean, cov = posterior(Fraction(delta), corner, [Fraction(v) for v in z])
-    return {"delta": delta, "corner": float(corner), "mean": [float(v) for v in mean],
-            "cov": [float(cov[i][j]) for i in range(3) for j in range(i + 1)]}
+    return {
+        "delta": delta,
+        "corner": float(corner),
+        "mean": [float(v) for v in mean],
+        "cov": [float(cov[i][j]) for i in range(3) for j in range(i + 1)],
+    }
 
 
 def cases():

@@ -4,8 +4,8 @@ from mpmath import mp, mpf
 
 from precise import zeros
 
-# Fifty digits are carried; what is smaller than this part of a diagonal element is rounding.
-ZERO = mpf("1e-38")
+# Sixty digits are carried; what is smaller than this part of a diagonal element is rounding.
+ZERO = mpf("1e-40")
 
 
 class NotDefinite(Exception):
@@ -36,6 +36,15 @@ def factor(p, matrix, scale=None):
         for i in range(j + 1, n):
             s[i, j] = (p[i, j] - sum(s[i, k] * s[j, k] for k in range(j))) / s[j, j]
     return s
+
+
+def without_rounding(p, scale):
+    """P with the rows and columns zero whose variance is only rounding of numbers of size `scale`."""
+    p = p.copy()
+    for i, size in enumerate(scale):
+        if abs(p[i, i]) <= ZERO**2 * size**2:
+            p[i, :], p[:, i] = mpf(0), mpf(0)
+    return p
 
 
 def solve_lower(s, b):

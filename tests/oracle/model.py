@@ -25,8 +25,10 @@ class Sensor:
         self.cov = [[parse(c) for c in row] for row in table["cov"]] if "cov" in table else None
         angles = table.get("angles", [])
         periods = {name: None for name in angles} if isinstance(angles, list) else angles
-        self.periods = [(2 * mp.pi if periods[name] is None else mpf(periods[name])) if name in periods else None
-                        for name in self.measures]
+        self.periods = [
+            (2 * mp.pi if periods[name] is None else mpf(periods[name])) if name in periods else None
+            for name in self.measures
+        ]
 
     def noise(self, names):
         if self.cov is not None:
@@ -81,8 +83,9 @@ class Model:
     def observe(self, present, x, t, u):
         """The measures `present`, pairs (sensor, component), at the columns of `x`. A measure knows no dt."""
         names = self._names(x, t, mpf("nan"), u)
-        return np.array([column(evaluate(self.sensors[s].functions[i], names), x.shape[1]) for s, i in present],
-                        dtype=object)
+        return np.array(
+            [column(evaluate(self.sensors[s].functions[i], names), x.shape[1]) for s, i in present], dtype=object
+        )
 
     def measurement_noise(self, present, t, u):
         names = self._names(None, t, mpf("nan"), u)

@@ -1,10 +1,10 @@
-"""Fifty-digit arithmetic on NumPy arrays of mpmath numbers."""
+"""Sixty-digit arithmetic on NumPy arrays of mpmath numbers."""
 
 import mpmath
 import numpy as np
 from mpmath import mp, mpf
 
-DIGITS = 50
+DIGITS = 60
 mp.dps = DIGITS
 
 
@@ -50,7 +50,7 @@ def lower(matrix):
     return [float(matrix[i, j]) for i in range(matrix.shape[0]) for j in range(i + 1)]
 
 
-def jacobian(function, x, digits=60, step="1e-35"):
+def jacobian(function, x, digits=60, step="1e-40"):
     """∂f/∂x by central differences at more digits: exact far beyond the working precision."""
     n = len(x)
     with mpmath.workdps(DIGITS + digits):

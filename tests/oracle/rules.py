@@ -35,7 +35,7 @@ class CentralDifference:
         n, eta = len(m), self.eta
         x = np.concatenate([m[:, None], m[:, None] + eta * s, m[:, None] - eta * s], axis=1)
         y = move(g(x), lambda: g(m[:, None]))
-        centre, plus, minus = y[:, :1], y[:, 1:n + 1], y[:, n + 1:]
+        centre, plus, minus = y[:, :1], y[:, 1 : n + 1], y[:, n + 1 :]
         mean = (eta**2 - n) / eta**2 * centre[:, 0] + (plus + minus).sum(axis=1) / (2 * eta**2)
         first = (plus - minus) / (2 * eta)
         second = mp.sqrt(eta**2 - 1) / (2 * eta**2) * (plus + minus - 2 * centre)

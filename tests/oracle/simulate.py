@@ -18,11 +18,12 @@ class Plan:
     """When rows stand, what is measured in each, and what drives the model.
 
     rows: (time, measures) or (time, sensor, measures); ALL measures, some by name, or NOTHING.
-    truth: the true start, or None for a draw from the prior. noise: scales the simulated noise.
+    truth: the true start, or None for a draw from the prior. rules: only these; without: all but these.
     """
 
-    def __init__(self, seed, rows, truth=None, control=None, rules=None, lag=False):
-        self.seed, self.truth, self.control, self.rules, self.lag = seed, truth, control, rules, lag
+    def __init__(self, seed, rows, truth=None, control=None, rules=None, without=(), lag=False):
+        self.seed, self.truth, self.control = seed, truth, control
+        self.rules, self.without, self.lag = rules, without, lag
         self.rows = [row if len(row) == 3 else (row[0], None, row[1]) for row in rows]
 
 
@@ -34,33 +35,87 @@ def torque(t):
     return round(1.5 if int(t / 0.6) % 2 else -1.0, 1)
 
 
+# α = 1e-3 loses ten digits: doubles cannot tell a zero pivot from its rounding then. In growing_rank the smoother of
+# any rule with a negative weight downdates by a column that is zero but for rounding.
+SMALL = ("unscented_small",)
 RADAR, POSITION = ("range", "bearing"), ("px", "py")
 PLANS = {
-    "missing": Plan(1, [
-        (1.0, ALL), (2.0, ("range", "px", "py")), (3.0, ("bearing",)), (4.0, POSITION), (5.0, NOTHING),
-        (6.0, ("range", "py")), (7.5, ("px",)), (8.0, RADAR), (10.0, ("bearing", "py")), (11.0, NOTHING),
-        (12.0, NOTHING), (13.0, ("range", "bearing", "px")), (13.5, ALL), (15.0, ("py",))], lag=True),
+    "missing": Plan(
+        1,
+        [
+            (1.0, ALL),
+            (2.0, ("range", "px", "py")),
+            (3.0, ("bearing",)),
+            (4.0, POSITION),
+            (5.0, NOTHING),
+            (6.0, ("range", "py")),
+            (7.5, ("px",)),
+            (8.0, RADAR),
+            (10.0, ("bearing", "py")),
+            (11.0, NOTHING),
+            (12.0, NOTHING),
+            (13.0, ("range", "bearing", "px")),
+            (13.5, ALL),
+            (15.0, ("py",)),
+        ],
+        lag=True,
+    ),
     "crossing": Plan(2, every(4.0, 20), truth=[-1080, 2, 20, 58, 0.155], lag=True),
-    "degrees": Plan(3, every(2.0, 12, 10.0), lag=True),
+    "degrees": Plan(3, every(2.0, 12, 10.0), truth=[15, -2.5, -1000, 5], lag=True),
     "three_d": Plan(4, every(1.0, 12), lag=True),
-    "driven": Plan(5, [(t, ALL) for t in (0.7, 0.75, 0.9, 1.3, 1.4, 1.45, 1.85, 1.9, 2.2, 2.3, 2.65, 2.7, 3.0, 3.1)],
-                   control=torque, lag=True),
+    "driven": Plan(
+        5,
+        [(t, ALL) for t in (0.7, 0.75, 0.9, 1.3, 1.4, 1.45, 1.85, 1.9, 2.2, 2.3, 2.65, 2.7, 3.0, 3.1)],
+        control=torque,
+        lag=True,
+    ),
     "fixed_step": Plan(6, [(t, ALL) for t in (0.25, 1.0, 1.5, 3.0, 3.25, 4.25, 5.0, 5.5, 6.75, 7.0)], lag=True),
     "known_state": Plan(7, every(2.0, 10)),
-    "duplicated_state": Plan(8, every(0.5, 10)),
-    "no_noise": Plan(9, every(0.5, 12)),
-    "growing_rank": Plan(10, every(1.0, 10)),
-    "reentry": Plan(11, every(0.5, 60), truth=[61000, 3048, 4.49e-4],
-                    rules=["cubature3", "gauss_hermite3", "central_difference", "taylor"]),
+    "duplicated_state": Plan(8, every(0.5, 10), without=SMALL),
+    "no_noise": Plan(9, every(0.5, 12), without=SMALL),
+    "growing_rank": Plan(10, every(1.0, 10), without=SMALL + ("unscented", "unscented_half")),
+    "reentry": Plan(
+        11,
+        every(0.5, 60),
+        truth=[61000, 3048, 4.49e-4],
+        rules=["cubature3", "gauss_hermite3", "central_difference", "taylor"],
+    ),
     "innovation_fails": Plan(12, every(1.0, 4)),
     "posterior_fails": Plan(13, every(1.0, 4), truth=[2, 0.5, -0.5, 0.3, 0.2]),
     "predicted_fails": Plan(14, every(1.0, 4)),
-    "prediction_rows": Plan(15, [
-        (0.1, NOTHING), (0.2, ALL), (0.3, NOTHING), (0.45, NOTHING), (0.5, ALL), (0.6, ALL), (0.65, NOTHING),
-        (0.8, ALL), (1.0, NOTHING), (1.1, ALL), (1.2, NOTHING), (1.5, NOTHING)], lag=True),
-    "one_time": Plan(16, [
-        (2.0, "west", ALL), (2.0, "east", ALL), (3.0, "west", ALL), (4.0, "east", ALL), (4.0, "west", ALL),
-        (5.5, "east", ("bearing",)), (6.0, "west", NOTHING), (7.0, "west", ALL), (7.0, "east", ALL)]),
+    "conditional_fails": Plan(17, every(1.0, 4)),
+    "prediction_rows": Plan(
+        15,
+        [
+            (0.1, NOTHING),
+            (0.2, ALL),
+            (0.3, NOTHING),
+            (0.45, NOTHING),
+            (0.5, ALL),
+            (0.6, ALL),
+            (0.65, NOTHING),
+            (0.8, ALL),
+            (1.0, NOTHING),
+            (1.1, ALL),
+            (1.2, NOTHING),
+            (1.5, NOTHING),
+        ],
+        lag=True,
+    ),
+    "one_time": Plan(
+        16,
+        [
+            (2.0, "west", ALL),
+            (2.0, "east", ALL),
+            (3.0, "west", ALL),
+            (4.0, "east", ALL),
+            (4.0, "west", ALL),
+            (5.5, "east", ("bearing",)),
+            (6.0, "west", NOTHING),
+            (7.0, "west", ALL),
+            (7.0, "east", ALL),
+        ],
+    ),
 }
 
 
@@ -95,8 +150,9 @@ def simulate(plan, model):
             steps, dt = gap_steps(model, row.time - time)
             for step in range(steps):
                 at = time + step * dt
-                x = gaussian(random, model.transition(x[:, None], at, dt, controls)[:, 0],
-                             model.process_noise(at, dt, controls))
+                x = gaussian(
+                    random, model.transition(x[:, None], at, dt, controls)[:, 0], model.process_noise(at, dt, controls)
+                )
         time, controls = row.time, row.controls
         if not row.present:
             continue

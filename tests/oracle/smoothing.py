@@ -1,12 +1,29 @@
 """Fixed-interval, fixed-lag and fixed-point smoothing of a filtered run, in covariance form."""
 
-from linear import divide, factor
+from linear import NotDefinite, divide, factor
 
 
 def gains(run):
     """The smoother gain of every transition."""
-    return [divide(node.following[2], factor(node.following[1], "predicted covariance"))
-            for node in run.nodes if node.following is not None]
+    return [
+        divide(node.following[2], factor(node.following[1], "predicted covariance"))
+        for node in run.nodes
+        if node.following is not None
+    ]
+
+
+def conditional_failure(run):
+    """The first transition k → k+1 after which Cov[x_k given x_{k+1}] = P − G P⁻ Gᵀ is indefinite, or None.
+
+    The covariance form never needs that matrix to be one; the square-root form has to take its root.
+    """
+    for k, gain in enumerate(gains(run)):
+        node = run.nodes[k]
+        try:
+            factor(node.cov - gain @ node.following[1] @ gain.T, "conditional covariance", scale=node.cov)
+        except NotDefinite:
+            return k
+    return None
 
 
 def backwards(run, gain, last, mean, cov, first=0):

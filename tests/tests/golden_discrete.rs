@@ -153,7 +153,10 @@ impl<M: Transition, H: Observation> Scenario<M, H> {
                 assert!(mean_error(est.filtered_mean(row), mean, est.filtered_cov(row)) < self.tolerance);
             }
             for (row, mean) in numbers(&truth["smooth_mean"]).chunks_exact(n).enumerate() {
-                assert!(mean_error(est.mean(row), mean, est.cov(row)) < self.tolerance, "truth, smoothed {row}");
+                assert!(
+                    mean_error(est.mean(row), mean, est.cov(row)) < self.tolerance,
+                    "truth, smoothed {row}"
+                );
             }
             assert!(cov_error(est.cov(0), &numbers(&truth["smooth_cov0"]), n) < self.tolerance);
             assert!(cov_error(est.filtered_cov(20), &numbers(&truth["cov20"]), n) < self.tolerance);

@@ -6,8 +6,13 @@ use std::path::PathBuf;
 
 /// Nonlinear Gaussian state estimation from a model file and a table of measurements.
 #[derive(Debug, Parser)]
-#[command(name = "givens", version, about, after_help = "Exit codes: 0 done; 1 a filter failed, what was finished is \
-written; 2 bad input, nothing written.\nstdout is data, all else goes to stderr.")]
+#[command(
+    name = "givens",
+    version,
+    about,
+    after_help = "Exit codes: 0 done; 1 a filter failed, what was finished is \
+written; 2 bad input, nothing written.\nstdout is data, all else goes to stderr."
+)]
 pub struct Args {
     #[command(subcommand)]
     pub command: Command,
@@ -43,7 +48,9 @@ pub enum Command {
     #[command(after_help = "Example:\n  givens check turn.toml --set update=separate")]
     Check(CheckArgs),
     /// Print a completion script for a shell
-    #[command(after_help = "Example:\n  givens completions bash > ~/.local/share/bash-completion/completions/givens")]
+    #[command(
+        after_help = "Example:\n  givens completions bash > ~/.local/share/bash-completion/completions/givens"
+    )]
     Completions {
         /// The shell
         shell: Shell,

@@ -43,20 +43,30 @@ fn track(plan: &Plan, session: &Session, i: usize) -> Track {
     let est = &answer.estimates;
     let n = est.states();
     let truth = session.truth_at_rows(plan, i);
-    let series = |state: usize, of: &[f64]| -> Vec<f64> { of.iter().skip(state).step_by(n.max(1)).copied().collect() };
+    let series =
+        |state: usize, of: &[f64]| -> Vec<f64> { of.iter().skip(state).step_by(n.max(1)).copied().collect() };
     let states = (0..n).map(|state| StateSeries {
         name: plan.model.states[state].clone(),
         time: est.time.clone(),
         mean: series(state, &est.mean),
         std: (0..est.len()).map(|row| est.std(row, state)).collect(),
         filtered: est.is_smoothed().then(|| series(state, &est.filtered_mean)),
-        truth: truth.as_ref().map(|truth| series(state, &truth.states)),
+        // a state that the truth does not know has no error to draw
+        truth: truth
+            .as_ref()
+            .map(|truth| series(state, &truth.states))
+            .filter(|x| x.iter().any(|x| !x.is_nan())),
     });
     let plane = plan.model.plane.map(|[x, y]| {
-        let pairs = |of: &[f64]| -> Vec<[f64; 2]> { of.chunks_exact(n).map(|row| [row[x], row[y]]).collect() };
+        let pairs =
+            |of: &[f64]| -> Vec<[f64; 2]> { of.chunks_exact(n).map(|row| [row[x], row[y]]).collect() };
         PlaneTrack {
             estimate: pairs(&est.mean),
-            covariance: est.cov.chunks_exact(n * n).map(|p| [p[x * n + x], p[x * n + y], p[y * n + y]]).collect(),
+            covariance: est
+                .cov
+                .chunks_exact(n * n)
+                .map(|p| [p[x * n + x], p[x * n + y], p[y * n + y]])
+                .collect(),
             filtered: est.is_smoothed().then(|| pairs(&est.filtered_mean)),
             measurements: rows.iter().filter_map(|row| plan.model.place(row)).collect(),
             truth: true_way(plan, i, x, y),

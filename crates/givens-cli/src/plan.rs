@@ -4,7 +4,10 @@ use crate::args::{FilterArgs, MethodArgs, ModelArgs};
 use crate::message::{Stop, say};
 use givens::Goal;
 use givens::registry::{Choice, Setting, SettingError, Value, resolve};
-use givens_io::{Beginning, Location, Model, SettingValue, Tracks, Truth, read_tracks, read_truth};
+use givens_expr::suggest;
+use givens_io::{
+    Beginning, InputError, Location, Model, SettingValue, Tracks, Truth, read_tracks, read_truth,
+};
 
 /// The method where neither the file nor the command line names one: the best of this version, not the oldest.
 const DEFAULT: &str = "sr-ckf";
@@ -78,7 +81,9 @@ pub fn model(args: &ModelArgs) -> Result<Model, Stop> {
 /// KEY=VALUE.
 fn pair<'a>(option: &str, text: &'a str) -> Result<(&'a str, &'a str), Stop> {
     match text.split_once('=') {
-        Some((key, value)) if !key.trim().is_empty() && !value.trim().is_empty() => Ok((key.trim(), value.trim())),
+        Some((key, value)) if !key.trim().is_empty() && !value.trim().is_empty() => {
+            Ok((key.trim(), value.trim()))
+        }
         _ => Err(Stop::input(format!("{option} {text}: write it as name=value"))),
     }
 }
@@ -143,15 +148,16 @@ fn dropped(model: &Model, key: &str, method: &str) -> String {
 
 /// A refusal at its place: in the file, or in an option of the command line.
 fn refused(error: &SettingError, location: Option<&Location>, option: Option<String>) -> Stop {
-    match location {
-        Some(location) => {
-            let mut told = location.error(&error.message);
-            told.help.clone_from(&error.help);
-            Stop::input(told.to_string())
-        }
-        None => Stop::input(match option {
-            Some(option) => format!("{option}: {error}"),
-            None => error.to_string(),
-        }),
+    let nearest = |(word, known): &(String, Vec<&'static str>)| match suggest(word, known.iter().copied()) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => format!("one of: {}", known.join(", ")),
+    };
+    let help = error.help.clone().or_else(|| error.unknown.as_ref().map(nearest));
+    if let Some(location) = location {
+        let told = location.error(&error.message);
+        return Stop::input(InputError { help, ..told }.to_string());
     }
+    let option = option.map_or(String::new(), |option| format!("{option}: "));
+    let help = help.map_or(String::new(), |help| format!("\n  help: {help}"));
+    Stop::input(format!("{option}{}{help}", error.message))
 }

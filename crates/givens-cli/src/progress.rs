@@ -1,8 +1,9 @@
 //! Progress on stderr, of work that takes longer than a second.
 
+use core::time::Duration;
 use givens::Row;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 /// A bar over the rows of all tracks. On anything but a terminal it is silent.
 #[derive(Clone)]

@@ -25,11 +25,17 @@ pub fn closing(plan: &Plan, session: &Session) {
 /// RMSE, coverage and NEES, a line for each state.
 fn accuracy_lines(model: &Model, accuracy: &Accuracy) -> Vec<String> {
     let width = model.states.iter().map(|name| name.chars().count()).max().unwrap_or(0).max(5);
-    let mut lines = vec![format!("against the truth:\n  {:width$} {:>12} {:>12} {:>8}", "state", "RMSE", "within 2σ", "rows")];
+    let mut lines = vec![format!(
+        "against the truth:\n  {:width$} {:>12} {:>12} {:>8}",
+        "state", "RMSE", "within 2σ", "rows"
+    )];
     for (i, name) in model.states.iter().enumerate() {
         if accuracy.rows[i] > 0 {
             let percent = 100.0 * accuracy.coverage[i];
-            lines.push(format!("  {name:width$} {:>12.5} {percent:>10.1} % {:>8}", accuracy.rmse[i], accuracy.rows[i]));
+            lines.push(format!(
+                "  {name:width$} {:>12.5} {percent:>10.1} % {:>8}",
+                accuracy.rmse[i], accuracy.rows[i]
+            ));
         }
     }
     if accuracy.rows.iter().all(|&rows| rows == 0) {
@@ -58,7 +64,8 @@ pub fn failure(model: &Model, data: &str, track: &Track, row: &Row, error: &Step
 
 /// A fault with the model's own names.
 fn fault(model: &Model, fault: &Fault) -> String {
-    let state = |i: usize| model.states.get(i).map_or_else(|| (i + 1).to_string(), |name| format!("`{name}`"));
+    let state =
+        |i: usize| model.states.get(i).map_or_else(|| (i + 1).to_string(), |name| format!("`{name}`"));
     let columns: Vec<&String> = model.sensors.iter().flat_map(|sensor| &sensor.columns).collect();
     let measure = |i: usize| columns.get(i).map_or_else(|| (i + 1).to_string(), |name| format!("`{name}`"));
     match *fault {
@@ -68,7 +75,11 @@ fn fault(model: &Model, fault: &Fault) -> String {
                 _ => ("state", state(pivot)),
             };
             let remedy = remedy(matrix);
-            format!("the {} is not positive definite at pivot {} ({kind} {name}); {remedy}", matrix.name(), pivot + 1)
+            format!(
+                "the {} is not positive definite at pivot {} ({kind} {name}); {remedy}",
+                matrix.name(),
+                pivot + 1
+            )
         }
         Fault::SingularInnovation { measure: i } => format!(
             "the innovation covariance is singular at pivot {} (measure {}): nothing is uncertain about it; give it a \

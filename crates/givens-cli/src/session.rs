@@ -65,7 +65,9 @@ impl Session {
         let times: Vec<usize> = (0..truth.times.len()).filter(|&k| truth.tracks[k] == i).collect();
         for (row, &t) in est.time.iter().enumerate() {
             let near = times.partition_point(|&k| truth.times[k] < t - close(t));
-            let Some(&k) = times.get(near).filter(|&&k| (truth.times[k] - t).abs() <= close(t)) else { continue };
+            let Some(&k) = times.get(near).filter(|&&k| (truth.times[k] - t).abs() <= close(t)) else {
+                continue;
+            };
             for (state, column) in truth.states.iter().enumerate() {
                 if let Some(column) = column {
                     states[row * n + state] = column[k];

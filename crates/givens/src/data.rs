@@ -24,6 +24,7 @@ pub struct Row<'a> {
 pub struct Data {
     measures: usize,
     controls: usize,
+    start: Option<f64>,
     time: Vec<f64>,
     z: Vec<f64>,
     u: Vec<f64>,
@@ -32,7 +33,7 @@ pub struct Data {
 /// Why a row was refused.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum DataError {
-    /// A time that is not finite, or before the row above.
+    /// A time that is not finite, or before the row above or the initial belief.
     Time {
         /// The row, from zero.
         row: usize,
@@ -57,21 +58,26 @@ pub enum DataError {
     },
 }
 
-impl std::fmt::Display for DataError {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+impl core::fmt::Display for DataError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match *self {
             Self::Time { row, time } => {
-                write!(f, "row {row}: time {time} is before the row above, or not finite; rows stand in time order")
+                write!(
+                    f,
+                    "row {row}: time {time} is before the row above or the initial belief, or not finite"
+                )
             }
             Self::Infinite { row, component } => {
                 write!(f, "row {row}: component {component} is infinite; a missing component is NaN")
             }
-            Self::Length { row, expected, found } => write!(f, "row {row}: expected length {expected}, found {found}"),
+            Self::Length { row, expected, found } => {
+                write!(f, "row {row}: expected length {expected}, found {found}")
+            }
         }
     }
 }
 
-impl std::error::Error for DataError {}
+impl core::error::Error for DataError {}
 
 impl Data {
     /// No rows yet, of measurements of length `measures`.
@@ -81,7 +87,18 @@ impl Data {
 
     /// No rows yet, of measurements and controls of these lengths.
     pub fn with_controls(measures: usize, controls: usize) -> Self {
-        Self { measures, controls, time: Vec::new(), z: Vec::new(), u: Vec::new() }
+        Self { measures, controls, start: None, time: Vec::new(), z: Vec::new(), u: Vec::new() }
+    }
+
+    /// The initial belief holds at `t0`; without this, at the first row, which is then updated without prediction.
+    #[must_use]
+    pub fn starting_at(self, t0: f64) -> Self {
+        Self { start: Some(t0), ..self }
+    }
+
+    /// The time at which the initial belief holds; zero if there is nothing to tell it.
+    pub fn start(&self) -> f64 {
+        self.start.or(self.time.first().copied()).unwrap_or(0.0)
     }
 
     /// Adds a row; NaN marks a missing component.
@@ -103,7 +120,7 @@ impl Data {
                 return Err(DataError::Length { row, expected, found });
             }
         }
-        if !time.is_finite() || self.time.last().is_some_and(|&last| time < last) {
+        if !time.is_finite() || self.time.last().copied().or(self.start).is_some_and(|last| time < last) {
             return Err(DataError::Time { row, time });
         }
         if let Some(component) = z.iter().position(|z| z.is_infinite()) {

@@ -4,7 +4,9 @@ use crate::args::CheckArgs;
 use crate::message::Stop;
 use crate::plan::{choose, model, settings};
 use crate::stdout;
-use givens::model::Transition;
+use givens::filter::Block;
+use givens::model::{Noise, Transition};
+use givens::registry::FormName;
 use givens_io::Model;
 use std::io::{self, Write};
 
@@ -12,10 +14,12 @@ use std::io::{self, Write};
 pub fn check(args: &CheckArgs) -> Result<(), Stop> {
     let model = model(&args.model)?;
     let choice = choose(&model, args.method.method.as_deref(), &settings(&args.method)?)?;
-    let mut parts = format!("{}: rule {}, form {}", choice.name, choice.rule.word(), choice.form.word());
-    if choice.form == givens::registry::FormName::SquareRoot {
-        parts += &format!(", update {}", if choice.block == givens::filter::Block::Joint { "joint" } else { "separate" });
-    }
+    let update = match (choice.form, choice.block) {
+        (FormName::Covariance, _) => "",
+        (FormName::SquareRoot, Block::Joint) => ", update joint",
+        (FormName::SquareRoot, Block::Separate) => ", update separate",
+    };
+    let parts = format!("{}: rule {}, form {}{update}", choice.name, choice.rule.word(), choice.form.word());
     stdout::write(|out| tell(out, &model, &parts))
 }
 
@@ -26,7 +30,7 @@ fn tell(out: &mut dyn Write, model: &Model, method: &str) -> io::Result<()> {
         Some(step) => format!("steps of {step}"),
         None => "one transition per gap".to_owned(),
     };
-    let noisy = if model.transition.noise() == givens::model::Noise::Root(0) { ", no process noise" } else { "" };
+    let noisy = if model.transition.noise() == Noise::Root(0) { ", no process noise" } else { "" };
     writeln!(out, "  time        {step}{noisy}")?;
     let begins = match (model.time, &model.start) {
         (Some(time), _) => format!("at {time}"),

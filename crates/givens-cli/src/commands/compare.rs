@@ -52,7 +52,9 @@ pub fn compare(args: &CompareArgs) -> Result<(), Stop> {
 
 fn header(plan: &Plan) -> Vec<String> {
     let mut header: Vec<String> =
-        ["method", "rows", "failed", "log-likelihood", "NIS/dof", "verdict", "µs/row"].map(str::to_owned).into();
+        ["method", "rows", "failed", "log-likelihood", "NIS/dof", "verdict", "µs/row"]
+            .map(str::to_owned)
+            .into();
     if let Some(truth) = &plan.truth {
         let known = plan.model.states.iter().zip(&truth.states).filter(|(_, column)| column.is_some());
         header.extend(known.map(|(name, _)| format!("{name} RMSE")));
@@ -75,7 +77,11 @@ fn line(plan: &Plan, name: &str, choice: &Choice) -> (Vec<String>, Vec<String>) 
         Verdict::Overconfident => "overconfident",
         Verdict::Underconfident => "underconfident",
     };
-    let name = if find(name).is_some_and(|entry| entry.name == name) { name.to_owned() } else { format!("{name} = {}", choice.name) };
+    let name = if find(name).is_some_and(|entry| entry.name == name) {
+        name.to_owned()
+    } else {
+        format!("{name} = {}", choice.name)
+    };
     let mut line = vec![
         name,
         rows.to_string(),

@@ -9,7 +9,7 @@ pub fn methods() -> Result<(), Stop> {
     stdout::write(|out| {
         writeln!(out, "{:<18} {:<18} {:<12} about", "method", "rule", "form")?;
         for entry in ENTRIES {
-            let names = std::iter::once(entry.name).chain(entry.aliases.iter().copied()).collect::<Vec<_>>();
+            let names = core::iter::once(entry.name).chain(entry.aliases.iter().copied()).collect::<Vec<_>>();
             let (names, rule, form) = (names.join(" = "), entry.rule.word(), entry.form.word());
             writeln!(out, "{names:<18} {rule:<18} {form:<12} {}", entry.about)?;
             writeln!(out, "{:<18} {}", "", entry.sources.join("; "))?;

@@ -23,7 +23,9 @@ pub fn simulate(args: &SimulateArgs) -> Result<(), Stop> {
         return Err(Stop::input("--runs 0: draw at least one"));
     }
     if args.runs > 1 && tracks.has_track_id {
-        return Err(Stop::input("--runs: the table of --times has tracks of its own; leave one of the two out"));
+        return Err(Stop::input(
+            "--runs: the table of --times has tracks of its own; leave one of the two out",
+        ));
     }
     let output = args.output.as_ref().map(Destination::create).transpose()?;
     let states = args.states.as_ref().map(Destination::create).transpose()?;
@@ -52,7 +54,8 @@ fn prior(model: &Model) -> Result<Gaussian, Stop> {
         let message = "`start` finds states from measurements, of which there are none yet";
         return Err(Stop::input(format!("{}: {message}; give all states `mean` and `std`", model.file)));
     };
-    Gaussian::from_cov(&mean, &model.prior.cov).map_err(|error| Stop::input(format!("{}: {error}", model.file)))
+    Gaussian::from_cov(&mean, &model.prior.cov)
+        .map_err(|error| Stop::input(format!("{}: {error}", model.file)))
 }
 
 /// Rows at equal distances, all sensors in each.
@@ -63,20 +66,27 @@ fn regular(model: &Model, args: &SimulateArgs) -> Result<Tracks, Stop> {
     if !(every > 0.0 && every.is_finite()) {
         return Err(Stop::input(format!("--every {every}: must be above zero")));
     }
-    if let Some(step) = model.transition.period() {
-        if (every / step - (every / step).round()).abs() > 1e-6 {
-            return Err(Stop::input(format!("--every {every}: not a whole number of the model's steps of {step}")));
-        }
+    let part = |step: &f64| (every / step - (every / step).round()).abs() > 1e-6;
+    if let Some(step) = model.transition.period().filter(part) {
+        return Err(Stop::input(format!(
+            "--every {every}: not a whole number of the model's steps of {step}"
+        )));
     }
     if !model.controls.is_empty() {
         let names = model.controls.join(", ");
-        return Err(Stop::input(format!("the model has controls ({names}): give them, with times, by --times DATA")));
+        return Err(Stop::input(format!(
+            "the model has controls ({names}): give them, with times, by --times DATA"
+        )));
     }
     let t0 = model.time.unwrap_or(0.0);
     let count = match (args.steps, args.until) {
         (Some(steps), _) => steps,
-        (None, Some(until)) if until.is_finite() && until > t0 => ((until - t0) / every * (1.0 + 1e-12)).floor() as usize,
-        (None, Some(until)) => return Err(Stop::input(format!("--until {until}: must lie behind the beginning, {t0}"))),
+        (None, Some(until)) if until.is_finite() && until > t0 => {
+            ((until - t0) / every * (1.0 + 1e-12)).floor() as usize
+        }
+        (None, Some(until)) => {
+            return Err(Stop::input(format!("--until {until}: must lie behind the beginning, {t0}")));
+        }
         (None, None) => return Err(Stop::input("say how long: --until T, --steps N or --times DATA")),
     };
     if count == 0 || count > MOST_ROWS {
@@ -85,7 +95,15 @@ fn regular(model: &Model, args: &SimulateArgs) -> Result<Tracks, Stop> {
     let row = |k: usize| {
         let time = t0 + (k + 1) as f64 * every;
         let z = vec![0.0; model.measures()];
-        givens_io::Row { line: k + 2, index: k, time, time_text: time.to_string(), sensor: None, z, u: vec![] }
+        givens_io::Row {
+            line: k + 2,
+            index: k,
+            time,
+            time_text: time.to_string(),
+            sensor: None,
+            z,
+            u: vec![],
+        }
     };
     let track = Track { id: None, start: t0, rows: (0..count).map(row).collect(), origin: None };
     Ok(Tracks { tracks: vec![track], ignored: vec![], has_track_id: false, has_sensor: false })
@@ -124,7 +142,9 @@ fn one(
 fn asked(model: &Model, args: &SimulateArgs, row: &givens_io::Row) -> Vec<f64> {
     let d = model.measures();
     match (&args.times, row.sensor.and_then(|sensor| model.sensors.get(sensor))) {
-        (Some(_), Some(sensor)) => (0..d).map(|i| if sensor.measures.contains(&i) { 0.0 } else { f64::NAN }).collect(),
+        (Some(_), Some(sensor)) => {
+            (0..d).map(|i| if sensor.measures.contains(&i) { 0.0 } else { f64::NAN }).collect()
+        }
         _ => vec![0.0; d],
     }
 }

@@ -145,7 +145,9 @@ impl fmt::Display for Fault {
             Fault::NotWholeSteps { gap, period } => {
                 write!(f, "a gap of {gap} is not a whole number of steps of {period}")
             }
-            Fault::Length { of, expected, found } => write!(f, "{of}: expected length {expected}, found {found}"),
+            Fault::Length { of, expected, found } => {
+                write!(f, "{of}: expected length {expected}, found {found}")
+            }
             Fault::Option(error) => error.fmt(f),
         }
     }

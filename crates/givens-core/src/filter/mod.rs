@@ -16,9 +16,7 @@ pub use form::{Belief, Covariance, Form, SquareRoot};
 #[cfg(feature = "alloc")]
 pub use gaussian::Gaussian;
 pub use gaussian::{InvalidCovariance, factor_of_covariance};
-pub use methods::{
-    Cdkf, Ckf, Ckf5, Ekf, Method, Qkf, SrCdkf, SrCkf, SrCkf5, SrEkf, SrQkf, SrUkf, Ukf,
-};
+pub use methods::{Cdkf, Ckf, Ckf5, Ekf, Method, Qkf, SrCdkf, SrCkf, SrCkf5, SrEkf, SrQkf, SrUkf, Ukf};
 pub use predict::Backward;
 pub use start::Sizes;
 pub use stepper::{Filter, Prior};

@@ -20,7 +20,7 @@ use core::marker::PhantomData;
 ///
 /// let (model, radar) = (CoordinatedTurn::default(), RangeBearing::published());
 /// let prior = Gaussian::from_std(&[1000.0, 300.0, 1000.0, 0.0, -0.05], &[10.0, 3.2, 10.0, 3.2, 0.01])?;
-/// let mut f = SrCkf::default().start(&model, 0.0, &prior)?;
+/// let mut f = SrCkf::default().start(&model, 0.0, prior)?;
 /// f.predict(1.0)?;
 /// f.update(&radar, &[1640.0, 0.65])?;
 /// assert!((f.mean()[0] - 1300.0).abs() < 20.0 && f.innovation().nis < 9.2);
@@ -171,7 +171,11 @@ impl<'m, X: Method, M: Transition, T: Real, B: AsMut<[T]>> Filter<'m, X, M, T, B
     /// A wrong number of them, or one that is not finite.
     pub fn set_parameters(&mut self, p: &[f64]) -> Result<(), StepError> {
         let (time, step) = (self.time, self.step);
-        set(self.parts().p, p, "parameters", Quantity::Parameter).map_err(|fault| StepError { fault, time, step })
+        set(self.parts().p, p, "parameters", Quantity::Parameter).map_err(|fault| StepError {
+            fault,
+            time,
+            step,
+        })
     }
 }
 

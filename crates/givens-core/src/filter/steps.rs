@@ -1,12 +1,12 @@
 //! The two steps of a filter: `predict(t)` and `update(sensor, z)`.
 
+use super::Matrix;
 use super::error::{Fault, StepError};
 use super::methods::Method;
-use super::predict::{Backward, accumulate, lanes, predict};
+use super::predict::{accumulate, lanes, predict};
 use super::start::Layout;
 use super::stepper::{Filter, Parts};
 use super::update::{InnovationMut, Measurement, update};
-use super::Matrix;
 use crate::model::{At, Observation, Transition};
 use crate::scalar::Real;
 
@@ -79,15 +79,17 @@ impl<X: Method, M: Transition, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
         let smoothing = self.layout.smoothing;
         let step = self.step;
         let fail = |fault| StepError { fault, time: t + dt, step };
-        let Parts { table, u, p, mut belief, mut total, later, scratch, .. } = self.parts();
+        let Parts { table, u, p, mut belief, mut total, mut later, scratch, .. } = self.parts();
         let at = At { t: T::of(t), dt: T::of(dt), u, p };
         if chained && smoothing {
-            let back = Backward { gain: &mut *later.gain, conditional: &mut *later.conditional };
-            predict::<_, _, _, X::Form>(&rule, table, model, &at, &mut belief, Some(back), scratch).map_err(fail)?;
+            let back = Some(&mut later);
+            predict::<_, _, _, X::Form>(&rule, table, model, &at, &mut belief, back, scratch)
+                .map_err(fail)?;
             lanes(accumulate(n, &mut total, &later, scratch), Matrix::Conditional).map_err(fail)?;
         } else {
-            let back = smoothing.then_some(total);
-            predict::<_, _, _, X::Form>(&rule, table, model, &at, &mut belief, back, scratch).map_err(fail)?;
+            let back = smoothing.then_some(&mut total);
+            predict::<_, _, _, X::Form>(&rule, table, model, &at, &mut belief, back, scratch)
+                .map_err(fail)?;
         }
         self.time = t + dt;
         self.step += 1;
@@ -138,8 +140,9 @@ impl<X: Method, M: Transition, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
         }
         self.make_room(sensor).map_err(fail)?;
         let (rule, block) = (self.method.rule(), self.method.block());
-        let Parts { table, u, p, mut belief, measured, predicted, nu, factor, white, scores, scratch, .. } =
-            self.parts();
+        let Parts {
+            table, u, p, mut belief, measured, predicted, nu, factor, white, scores, scratch, ..
+        } = self.parts();
         let at = At { t: T::of(time), dt: T::zero(), u, p };
         let measured = &mut measured[..d];
         measured.iter_mut().zip(z).for_each(|(to, &z)| *to = T::of(z));

@@ -45,7 +45,8 @@ fn factorise<T: Real>(a: &mut [T], n: usize, rounding: f64, scale: impl Fn(usize
         let root = T::select(nothing, zero, pivot.sqrt());
         let inverse = T::select(nothing, zero, root.recip());
         for (i, below) in tail.chunks_exact_mut(n).take(n - j - 1).enumerate() {
-            let rest = row[..j].iter().zip(&below[..j]).fold(below[j], |rest, (&x, &y)| (-x).mul_add(y, rest));
+            let rest =
+                row[..j].iter().zip(&below[..j]).fold(below[j], |rest, (&x, &y)| (-x).mul_add(y, rest));
             // |P_ij|² ≤ P_ii P_jj: a zero pivot forces a zero column, to the rounding of both
             let own = below[j + 1 + i];
             let bound = (rounding.abs() * (own.abs() + scale(j + 1 + i, own).abs())).sqrt();

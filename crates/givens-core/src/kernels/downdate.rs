@@ -21,7 +21,7 @@ pub fn downdate<T: Real>(l: &mut [T], n: usize, stride: usize, v: &mut [T]) -> H
     let mut health = Health::good();
     let (zero, one) = (T::zero(), T::one());
     for k in 0..n {
-        let row = &l[k * stride..k * stride + k + 1];
+        let row = &l[k * stride..][..=k];
         let norm = row.iter().fold(zero, |sum, &x| x.mul_add(x, sum)).sqrt();
         let (pivot, vk) = (row[k], v[k]);
         let size = pivot.max(vk.abs());
@@ -41,7 +41,7 @@ pub fn downdate<T: Real>(l: &mut [T], n: usize, stride: usize, v: &mut [T]) -> H
             let below = l[i * stride + k];
             // a zero square of the pivot forces a zero column: what is left of it must be within its rounding
             let left = below.abs() - v[i].abs();
-            let row_norm = l[i * stride..i * stride + i + 1].iter().fold(v[i].abs(), |m, &x| m.max(x.abs()));
+            let row_norm = l[i * stride..][..=i].iter().fold(v[i].abs(), |m, &x| m.max(x.abs()));
             let allowed = (rounding * size).sqrt() * (row_norm + row_norm);
             health.note(spent & !left.abs().le(allowed), k);
             let x = (below - s * v[i]) / c;

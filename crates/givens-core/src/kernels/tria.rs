@@ -12,7 +12,7 @@ use crate::scalar::{Mask, Real};
 ///
 /// ```
 /// use givens_core::kernels::tria;
-/// let mut a = [3.0, 4.0, 0.0,
+/// let mut a = [3.0_f64, 4.0, 0.0,
 ///              0.0, 5.0, 1.0];
 /// let _ = tria(&mut a, 2, 3, 3);
 /// assert!((a[0] - 5.0).abs() < 1e-15 && (a[3] - 4.0).abs() < 1e-15 && (a[4] - 10f64.sqrt()).abs() < 1e-15);
@@ -46,7 +46,7 @@ pub fn tria<T: Real>(a: &mut [T], rows: usize, columns: usize, stride: usize) ->
             for (l, &v) in lower[used..columns].iter_mut().zip(&row[used..columns]) {
                 *l = (-dot).mul_add(v, *l);
             }
-            lower[used] = lower[used] * flip;
+            lower[used] *= flip;
         }
         row[used] = norm;
         row[used + 1..].fill(T::zero());

@@ -46,7 +46,7 @@ impl PointRule for Cubature5 {
             j += 1;
         }
         xi[j] = Real::sqrt(0.5 * r2);
-        xi[j + 1 + left] = if l % 2 == 0 { xi[j] } else { -xi[j] };
+        xi[j + 1 + left] = if l.is_multiple_of(2) { xi[j] } else { -xi[j] };
         1.0 / (r2 * r2)
     }
 }

@@ -18,7 +18,7 @@ pub use central_difference::CentralDifference;
 pub use cubature3::Cubature3;
 pub use cubature5::Cubature5;
 pub use gauss_hermite::GaussHermite;
-pub use points::{Centre, PointRule, Pairs};
+pub use points::{Centre, Pairs, PointRule};
 pub use taylor::Taylor;
 pub use unscented::Unscented;
 

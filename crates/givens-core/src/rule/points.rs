@@ -182,7 +182,8 @@ fn from_table<T: Real, G: Map>(
         for j in 0..n {
             let xi = &nodes[j * count..(j + 1) * count];
             // Σ over both points of w y ξ: w (y₊ − y₋) ξ
-            row[j] = (0..count).fold(T::zero(), |sum, l| (weights[l] * (plus[l] - minus[l])).mul_add(xi[l], sum));
+            row[j] =
+                (0..count).fold(T::zero(), |sum, l| (weights[l] * (plus[l] - minus[l])).mul_add(xi[l], sum));
         }
         for l in 0..count {
             let moved = (0..n).fold(T::zero(), |sum, j| row[j].mul_add(nodes[j * count + l], sum));
@@ -201,14 +202,13 @@ fn from_table<T: Real, G: Map>(
     }
 }
 
-/// Σ w (y₊ + y₋) and the centre's share; about the centre's image where there is one, since the weights sum to one.
+/// ȳ = r + Σ w ((y₊ − r) + (y₋ − r)), since the weights sum to one; r is the centre's image, or the first one. So a
+/// component without spread has no deviation, not one of rounding, which would pass for a direction of its own.
 #[inline(always)]
 fn pair_mean<T: Real>(plus: &[T], minus: &[T], centre: Option<T>, weight: impl Fn(usize) -> T) -> T {
+    let r = centre.unwrap_or(plus[0]);
     let pairs = plus.iter().zip(minus).enumerate();
-    match centre {
-        Some(c) => pairs.fold(c, |sum, (l, (&p, &m))| weight(l).mul_add((p - c) + (m - c), sum)),
-        None => pairs.fold(T::zero(), |sum, (l, (&p, &m))| weight(l).mul_add(p + m, sum)),
-    }
+    pairs.fold(r, |sum, (l, (&p, &m))| weight(l).mul_add((p - r) + (m - r), sum))
 }
 
 /// The centre's column √|w| (y₀ − ȳ), among the positive or the negative ones by the sign of its weight.

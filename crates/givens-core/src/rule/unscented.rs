@@ -33,7 +33,11 @@ impl Unscented {
 impl PointRule for Unscented {
     fn check(&self, n: usize) -> Result<(), RuleError> {
         let finite = |option, value: f64| {
-            if value.is_finite() { Ok(()) } else { Err(RuleError { option, value, must: "must be a finite number" }) }
+            if value.is_finite() {
+                Ok(())
+            } else {
+                Err(RuleError { option, value, must: "must be a finite number" })
+            }
         };
         finite("beta", self.beta)?;
         if !(self.alpha > 0.0 && self.alpha.is_finite()) {
@@ -42,7 +46,11 @@ impl PointRule for Unscented {
         let radius2 = self.radius2(n);
         if !(radius2 > 0.0 && radius2.is_finite()) {
             let value = self.kappa.unwrap_or(f64::NAN);
-            return Err(RuleError { option: "kappa", value, must: "n + kappa must be above zero (n: number of states)" });
+            return Err(RuleError {
+                option: "kappa",
+                value,
+                must: "n + kappa must be above zero (n: number of states)",
+            });
         }
         Ok(())
     }

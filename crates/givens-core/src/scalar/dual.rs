@@ -222,11 +222,7 @@ impl<T: Real> Real for Dual2<T> {
         let turn = (x.v * y.d - y.v * x.d) / r2;
         let stretch = (x.v * x.d + y.v * y.d) / r2;
         let bend = (x.v * y.dd - y.v * x.dd) / r2 - (turn + turn) * stretch;
-        Self {
-            v: y.v.atan2(x.v),
-            d: T::select(still, zero, turn),
-            dd: T::select(still, zero, bend),
-        }
+        Self { v: y.v.atan2(x.v), d: T::select(still, zero, turn), dd: T::select(still, zero, bend) }
     }
     #[inline(always)]
     fn sinh(self) -> Self {

@@ -153,11 +153,12 @@ pub trait Real:
     fn min(self, other: Self) -> Self {
         Self::select(self.lt(other) | !self.same(self), self, other)
     }
-    /// −1, 0 or 1.
+    /// −1, 0 or 1; NaN for NaN.
     #[inline(always)]
     fn sign(self) -> Self {
         let z = Self::zero();
-        Self::select(self.same(z), z, Self::one().copysign(self))
+        let side = Self::select(z.lt(self), Self::one(), -Self::one());
+        Self::select(z.lt(self) | self.lt(z), side, self)
     }
     /// True in the lanes that hold a finite value.
     #[inline(always)]

@@ -55,7 +55,10 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> FixedPoint<T, B> {
     }
 
     /// Begins at the filter's present time, with its belief, in at least [`memory_len`](Self::memory_len) scalars.
-    pub fn begin<X: Method, M: Transition, C: Grow<T>>(filter: &Filter<'_, X, M, T, C>, mut memory: B) -> Self {
+    pub fn begin<X: Method, M: Transition, C: Grow<T>>(
+        filter: &Filter<'_, X, M, T, C>,
+        mut memory: B,
+    ) -> Self {
         let n = filter.mean().len();
         let parts = parts(n, memory.as_mut());
         parts.mean.copy_from_slice(filter.mean());

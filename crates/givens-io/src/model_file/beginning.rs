@@ -37,8 +37,11 @@ impl Model {
         let has = |z: &[f64]| start.measures.iter().all(|&i| z.get(i).is_some_and(|z| z.is_finite()));
         let Some((row, first)) = track.rows.iter().enumerate().find(|(_, row)| has(&row.z)) else {
             let columns = self.sensors.iter().flat_map(|sensor| &sensor.columns);
-            let needed: Vec<_> =
-                columns.enumerate().filter(|(i, _)| start.measures.contains(i)).map(|(_, c)| c.as_str()).collect();
+            let needed: Vec<_> = columns
+                .enumerate()
+                .filter(|(i, _)| start.measures.contains(i))
+                .map(|(_, c)| c.as_str())
+                .collect();
             return Err(format!("no row has all that `start` reads: {}", needed.join(", ")));
         };
         let n = self.states.len();
@@ -62,7 +65,14 @@ impl Model {
     }
 
     /// J R Jᵀ, k × k, from the slopes J of `start` along all measures.
-    fn spread(&self, start: &Start, t: f64, u: &[f64], p: &[f64], slopes: &[f64]) -> Result<Vec<f64>, String> {
+    fn spread(
+        &self,
+        start: &Start,
+        t: f64,
+        u: &[f64],
+        p: &[f64],
+        slopes: &[f64],
+    ) -> Result<Vec<f64>, String> {
         let (d, k) = (self.measures(), start.states.len());
         let columns = self.observation.noise().columns(d);
         let mut root = vec![0.0; d * columns];
@@ -82,5 +92,6 @@ impl Model {
 }
 
 fn gaussian(mean: &[f64], cov: &[f64]) -> Result<Gaussian, String> {
-    Gaussian::from_cov(mean, cov).map_err(|error: InvalidCovariance| format!("the initial covariance: {error}"))
+    Gaussian::from_cov(mean, cov)
+        .map_err(|error: InvalidCovariance| format!("the initial covariance: {error}"))
 }

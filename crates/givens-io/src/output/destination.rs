@@ -21,8 +21,8 @@ pub struct DestinationError {
     pub source: io::Error,
 }
 
-impl std::fmt::Display for DestinationError {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+impl core::fmt::Display for DestinationError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         write!(f, "cannot write {}: {}", self.path.display(), self.source)?;
         match self.source.kind() {
             io::ErrorKind::NotFound => write!(f, "; make its folder first"),
@@ -32,8 +32,8 @@ impl std::fmt::Display for DestinationError {
     }
 }
 
-impl std::error::Error for DestinationError {
-    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+impl core::error::Error for DestinationError {
+    fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
         Some(&self.source)
     }
 }

@@ -51,11 +51,15 @@ impl Consistency {
     }
 }
 
-impl std::fmt::Display for Consistency {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+impl core::fmt::Display for Consistency {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         let (low, high) = self.band;
-        let mean = |f: &mut std::fmt::Formatter<'_>, word: &str| {
-            write!(f, "{word}: mean NIS {:.3} per degree of freedom, 95 % band {low:.3} to {high:.3}", self.ratio)
+        let mean = |f: &mut core::fmt::Formatter<'_>, word: &str| {
+            write!(
+                f,
+                "{word}: mean NIS {:.3} per degree of freedom, 95 % band {low:.3} to {high:.3}",
+                self.ratio
+            )
         };
         match self.verdict() {
             Verdict::Unknown => write!(f, "nothing was measured"),

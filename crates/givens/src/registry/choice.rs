@@ -1,11 +1,13 @@
 //! A method as it was chosen at run time: parts and options.
 
 use super::runtime::{AnyPoints, Parts};
+use crate::Row;
 use crate::filter::{Block, Covariance, Gaussian, SquareRoot};
 use crate::model::{Observation, Transition};
-use crate::rule::{CentralDifference, Cubature3, Cubature5, GaussHermite, Rule, RuleError, Taylor, Unscented};
+use crate::rule::{
+    CentralDifference, Cubature3, Cubature5, GaussHermite, Rule, RuleError, Taylor, Unscented,
+};
 use crate::run::{Goal, Outcome, run};
-use crate::Row;
 
 macro_rules! words {
     ($(#[$doc:meta])* $name:ident { $($(#[$variant_doc:meta])* $variant:ident = $word:literal,)* }) => {

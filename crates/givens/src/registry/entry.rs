@@ -22,9 +22,11 @@ pub struct Entry {
 const CKF: &str = "Arasaratnam & Haykin 2009, Cubature Kalman filters, IEEE TAC 54(6)";
 const SR_UPDATE: &str = "Arasaratnam, Haykin & Hurd 2010, IEEE TSP 58(10), eq 36";
 const SMOOTHER: &str = "Arasaratnam & Haykin 2011, Cubature Kalman smoothers, Automatica 47(10)";
-const QKF: &str = "Arasaratnam, Haykin & Elliott 2007, Discrete-time nonlinear filtering by Gauss-Hermite quadrature";
+const QKF: &str =
+    "Arasaratnam, Haykin & Elliott 2007, Discrete-time nonlinear filtering by Gauss-Hermite quadrature";
 const CDKF: &str = "Noergaard, Poulsen & Ravn 2000, New developments in state estimation, Automatica 36(11)";
-const UKF: &str = "Julier & Uhlmann 1997/2004, Unscented filtering and nonlinear estimation, Proc. IEEE 92(3)";
+const UKF: &str =
+    "Julier & Uhlmann 1997/2004, Unscented filtering and nonlinear estimation, Proc. IEEE 92(3)";
 const SR_UKF: &str = "van der Merwe & Wan 2001, The square-root unscented Kalman filter";
 const CKF5: &str = "Jia, Xin & Cheng 2013, High-degree cubature Kalman filter, Automatica 49(2)";
 const EKF: &str = "Jazwinski 1970, Stochastic Processes and Filtering Theory";

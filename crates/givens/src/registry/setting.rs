@@ -14,8 +14,8 @@ pub enum Value {
     Word(String),
 }
 
-impl std::fmt::Display for Value {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+impl core::fmt::Display for Value {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self {
             Value::Number(x) => x.fmt(f),
             Value::Word(word) => word.fmt(f),
@@ -50,16 +50,22 @@ pub struct SettingError {
     pub message: String,
     /// The way out.
     pub help: Option<String>,
+    /// A word that is not known, and those that are: a caller may suggest the nearest.
+    pub unknown: Option<(String, Vec<&'static str>)>,
 }
 
-impl std::fmt::Display for SettingError {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+impl core::fmt::Display for SettingError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         self.message.fmt(f)?;
-        self.help.as_ref().map_or(Ok(()), |help| write!(f, " ({help})"))
+        match (&self.help, &self.unknown) {
+            (Some(help), _) => write!(f, " ({help})"),
+            (None, Some((_, known))) => write!(f, " (one of: {})", known.join(", ")),
+            (None, None) => Ok(()),
+        }
     }
 }
 
-impl std::error::Error for SettingError {}
+impl core::error::Error for SettingError {}
 
 /// A part or option, and the method that reads it.
 #[derive(Clone, Copy, Debug)]
@@ -84,8 +90,16 @@ pub const OPTIONS: &[OptionInfo] = &[
     OptionInfo { key: "time_update", about: "transition", rule: None },
     OptionInfo { key: "alpha", about: "spread of the points (1)", rule: Some(RuleName::Unscented) },
     OptionInfo { key: "beta", about: "added to the centre's weight (0)", rule: Some(RuleName::Unscented) },
-    OptionInfo { key: "kappa", about: "the plain transform's parameter (3 - n)", rule: Some(RuleName::Unscented) },
-    OptionInfo { key: "eta", about: "step of the differences (sqrt 3)", rule: Some(RuleName::CentralDifference) },
+    OptionInfo {
+        key: "kappa",
+        about: "the plain transform's parameter (3 - n)",
+        rule: Some(RuleName::Unscented),
+    },
+    OptionInfo {
+        key: "eta",
+        about: "step of the differences (sqrt 3)",
+        rule: Some(RuleName::CentralDifference),
+    },
     OptionInfo { key: "points", about: "points per axis (3)", rule: Some(RuleName::GaussHermite) },
 ];
 
@@ -154,9 +168,9 @@ fn preset(entry: &Entry) -> Choice {
 fn set_option(choice: &mut Choice, at: usize, setting: &Setting, method: &str) -> Result<(), SettingError> {
     let key = setting.key.as_str();
     let Some(info) = OPTIONS.iter().find(|info| info.key == key) else {
-        let keys: Vec<_> = OPTIONS.iter().map(|info| info.key).collect();
-        let message = format!("there is no option `{key}`");
-        return Err(SettingError { setting: Some(at), unread: false, message, help: Some(listed(key, &keys)) });
+        let keys = OPTIONS.iter().map(|info| info.key).collect();
+        let error = refused(at, format!("there is no option `{key}`"));
+        return Err(SettingError { unknown: Some((key.to_owned(), keys)), ..error });
     };
     let Some(rule) = info.rule else { return Ok(()) };
     let number = number(at, setting)?;
@@ -171,7 +185,7 @@ fn set_option(choice: &mut Choice, at: usize, setting: &Setting, method: &str) -
         _ => {
             if number.fract() != 0.0 || !(2.0..=64.0).contains(&number) {
                 let message = format!("points = {number}: must be a whole number from 2 to 64");
-                return Err(SettingError { setting: Some(at), unread: false, message, help: None });
+                return Err(refused(at, message));
             }
             choice.gauss_hermite.points = number as usize;
         }
@@ -184,7 +198,7 @@ fn number(at: usize, setting: &Setting) -> Result<f64, SettingError> {
         Value::Number(x) if x.is_finite() => Ok(x),
         _ => {
             let message = format!("{} = {}: must be a number", setting.key, setting.value);
-            Err(SettingError { setting: Some(at), unread: false, message, help: None })
+            Err(refused(at, message))
         }
     }
 }
@@ -192,60 +206,34 @@ fn number(at: usize, setting: &Setting) -> Result<f64, SettingError> {
 fn word<T>(
     at: usize,
     setting: &Setting,
-    words: &[&str],
+    words: &[&'static str],
     parse: impl Fn(&str) -> Option<T>,
 ) -> Result<T, SettingError> {
     let text = setting.value.to_string();
-    parse(&text).ok_or_else(|| SettingError {
-        setting: Some(at),
-        unread: false,
-        message: format!("{} = {text}: no such choice", setting.key),
-        help: Some(listed(&text, words)),
+    parse(&text).ok_or_else(|| {
+        let error = refused(at, format!("{} = {text}: no such choice", setting.key));
+        SettingError { unknown: Some((text, words.to_vec())), ..error }
     })
 }
 
+/// A setting that is wrong whatever the method.
+fn refused(at: usize, message: String) -> SettingError {
+    SettingError { setting: Some(at), unread: false, message, help: None, unknown: None }
+}
+
 fn unread(at: usize, key: &str, method: &str, why: &str) -> SettingError {
-    SettingError {
-        setting: Some(at),
-        unread: true,
-        message: format!("`{method}` does not read `{key}`"),
-        help: Some(why.to_owned()),
-    }
+    let error = refused(at, format!("`{method}` does not read `{key}`"));
+    SettingError { unread: true, help: Some(why.to_owned()), ..error }
 }
 
 fn unknown_method(method: &str) -> SettingError {
-    let known: Vec<_> = names().collect();
     let continuous = CONTINUOUS.iter().any(|prefix| method.starts_with(prefix));
-    let help = if continuous {
-        "this version holds the discrete-time methods; `givens methods` lists them".to_owned()
-    } else {
-        listed(method, &known)
-    };
-    let message = format!("there is no method `{method}`");
-    SettingError { setting: None, unread: false, message, help: Some(help) }
-}
-
-/// The nearest of the words if one is near, else all of them.
-fn listed(word: &str, words: &[&str]) -> String {
-    let near = words.iter().map(|&known| (edit_distance(word, known), known)).min();
-    match near {
-        Some((distance, known)) if distance <= 1 + word.len() / 4 => format!("did you mean `{known}`?"),
-        _ => format!("one of: {}", words.join(", ")),
+    SettingError {
+        setting: None,
+        unread: false,
+        message: format!("there is no method `{method}`"),
+        help: continuous
+            .then(|| "this version holds the discrete-time methods; see `givens methods`".to_owned()),
+        unknown: (!continuous).then(|| (method.to_owned(), names().collect())),
     }
-}
-
-/// The number of letters to insert, drop or change (Levenshtein).
-fn edit_distance(a: &str, b: &str) -> usize {
-    let b: Vec<char> = b.chars().collect();
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, x) in a.chars().enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
-        for (j, &y) in b.iter().enumerate() {
-            let above = row[j + 1];
-            row[j + 1] = (diagonal + usize::from(x != y)).min(above + 1).min(row[j] + 1);
-            diagonal = above;
-        }
-    }
-    row[b.len()]
 }

@@ -20,19 +20,19 @@ pub struct Failure {
     pub finished: Box<Estimates>,
 }
 
-impl std::fmt::Display for Failure {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+impl core::fmt::Display for Failure {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         write!(f, "row {}, t = {}: {}", self.row, self.error.time, self.error.fault)
     }
 }
 
-impl std::error::Error for Failure {
-    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+impl core::error::Error for Failure {
+    fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
         Some(&self.error)
     }
 }
 
-/// Filters a trajectory; `prior` holds at time `t0`.
+/// Filters a trajectory; `prior` holds at [`Data::start`]. Several sensors are a tuple.
 ///
 /// # Errors
 /// The first step that fails, with all rows before it.
@@ -41,13 +41,12 @@ pub fn filter<X: Method, M: Transition, H: Observation>(
     model: &M,
     sensors: &H,
     data: &Data,
-    t0: f64,
     prior: &Gaussian,
 ) -> Result<Estimates, Failure> {
-    run(*method, model, sensors, data.rows(), t0, prior, Goal::Filter).into_result()
+    run(*method, model, sensors, data.rows(), data.start(), prior, Goal::Filter).into_result()
 }
 
-/// Smooths a trajectory over all of its rows; `prior` holds at time `t0`. Several sensors are a tuple.
+/// Smooths a trajectory over all of its rows; `prior` holds at [`Data::start`]. Several sensors are a tuple.
 ///
 /// # Errors
 /// The first step that fails, with the rows before it, smoothed among themselves.
@@ -56,13 +55,12 @@ pub fn smooth<X: Method, M: Transition, H: Observation>(
     model: &M,
     sensors: &H,
     data: &Data,
-    t0: f64,
     prior: &Gaussian,
 ) -> Result<Estimates, Failure> {
-    run(*method, model, sensors, data.rows(), t0, prior, Goal::Interval).into_result()
+    run(*method, model, sensors, data.rows(), data.start(), prior, Goal::Interval).into_result()
 }
 
-/// Runs a method over rows in order of time, for any goal.
+/// Runs a method over rows in order of time, for any goal; `prior` holds at time `t0`.
 pub fn run<'a, X: Method, M: Transition, H: Observation>(
     method: X,
     model: &M,

@@ -156,9 +156,11 @@ impl<'m, X: Method, M: Transition, H: Observation> Recorder<'m, X, M, H> {
             Goal::Lag(lag) => lag.min(last),
             Goal::Filter | Goal::Point(_) => return Ok(()),
         };
-        let start = Prior { time: out.time[last], mean: &self.last.0, factor: &self.last.1, cov: &self.last.2 };
+        let start =
+            Prior { time: out.time[last], mean: &self.last.0, factor: &self.last.1, cov: &self.last.2 };
         let skip = usize::from(failed && self.predicted);
-        self.history.smooth_from::<X::Form>(start, skip, steps, |age, belief| put::<X::Form>(out, last - age, belief))
+        self.history
+            .smooth_from::<X::Form>(start, skip, steps, |age, belief| put::<X::Form>(out, last - age, belief))
     }
 }
 

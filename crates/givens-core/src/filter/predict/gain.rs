@@ -29,7 +29,7 @@ pub(super) fn gain_of_factor<T: Real>(
     stride: usize,
     minus: &[T],
     factor: &[T],
-    back: Backward<T>,
+    back: &mut Backward<T>,
     mut scratch: &mut [T],
 ) -> Result<T::Mask, Fault> {
     let n = back_len(factor);
@@ -55,7 +55,8 @@ pub(super) fn gain_of_factor<T: Real>(
         for (v, row) in column.iter_mut().zip(minus.chunks_exact(columns)) {
             *v = row[k];
         }
-        sick = sick | split(downdate(block, 2 * n, 2 * n, column), n, Matrix::Predicted, Matrix::Conditional)?;
+        sick =
+            sick | split(downdate(block, 2 * n, 2 * n, column), n, Matrix::Predicted, Matrix::Conditional)?;
     }
     for i in 0..n {
         let row = &block[(n + i) * 2 * n..(n + i + 1) * 2 * n];
@@ -92,7 +93,7 @@ pub(super) fn gain_of_covariance<T: Real>(
     stride: usize,
     factor: &[T],
     next: &[T],
-    back: Backward<T>,
+    back: &mut Backward<T>,
 ) {
     let n = back_len(factor);
     for (to, s) in back.gain.chunks_exact_mut(n).zip(factor.chunks_exact(n)) {

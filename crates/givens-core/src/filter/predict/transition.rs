@@ -27,7 +27,7 @@ pub(crate) fn predict<T: Real, M: Transition, R: Rule, F: Form>(
     model: &M,
     at: &At<T>,
     belief: &mut Belief<T>,
-    back: Option<Backward<T>>,
+    back: Option<&mut Backward<T>>,
     mut scratch: &mut [T],
 ) -> Result<T::Mask, Fault> {
     let n = belief.mean.len();

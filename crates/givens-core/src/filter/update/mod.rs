@@ -3,8 +3,8 @@
 mod covariance;
 mod innovation;
 mod joint;
-mod separate;
 mod sensed;
+mod separate;
 
 pub use innovation::Innovation;
 pub(crate) use innovation::InnovationMut;

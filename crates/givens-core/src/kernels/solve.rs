@@ -3,7 +3,7 @@
 use crate::scalar::Real;
 
 #[inline(always)]
-fn inverse_or_zero<T: Real>(pivot: T) -> T {
+pub(super) fn inverse_or_zero<T: Real>(pivot: T) -> T {
     T::select(pivot.same(T::zero()), T::zero(), pivot.recip())
 }
 

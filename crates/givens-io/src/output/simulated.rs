@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use givens::simulate::Simulation;
 
-use super::digits;
+use super::{digits, told};
 use crate::model_file::Model;
 
 /// The drawn trajectory of one run.
@@ -85,7 +85,7 @@ fn rows(
     write: impl Fn(&Drawn, usize, &mut Vec<String>),
 ) -> io::Result<()> {
     let mut table = csv::Writer::from_writer(out);
-    table.write_record(header)?;
+    table.write_record(header).map_err(told)?;
     let mut cells = Vec::with_capacity(header.len());
     for run in runs {
         for k in 0..run.simulation.time.len() {
@@ -93,7 +93,7 @@ fn rows(
             cells.push(run.time_text[k].clone());
             cells.extend(run.track.clone());
             write(run, k, &mut cells);
-            table.write_record(&cells)?;
+            table.write_record(&cells).map_err(told)?;
         }
     }
     table.flush()

@@ -164,6 +164,8 @@ def check_square_root(golden):
         expected = json.loads((golden / scenario / "expected.json").read_text())["filters"]
         line = []
         for name, truth in expected.items():
+            if name in plan.hard:
+                continue
             results, failed = square_root.run(model, RULES[name][1](model.n), rows)
             want = truth.get("failed")
             if "conditional_fails" in truth:

@@ -18,12 +18,12 @@ class Plan:
     """When rows stand, what is measured in each, and what drives the model.
 
     rows: (time, measures) or (time, sensor, measures); ALL measures, some by name, or NOTHING.
-    truth: the true start, or None for a draw from the prior. rules: only these; without: all but these.
+    truth: the true start, or None for a draw from the prior. rules: only these. hard: rules that plain downdates in doubles cannot serve (checks.py).
     """
 
-    def __init__(self, seed, rows, truth=None, control=None, rules=None, without=(), lag=False):
+    def __init__(self, seed, rows, truth=None, control=None, rules=None, hard=(), lag=False):
         self.seed, self.truth, self.control = seed, truth, control
-        self.rules, self.without, self.lag = rules, without, lag
+        self.rules, self.hard, self.lag = rules, hard, lag
         self.rows = [row if len(row) == 3 else (row[0], None, row[1]) for row in rows]
 
 
@@ -35,8 +35,8 @@ def torque(t):
     return round(1.5 if int(t / 0.6) % 2 else -1.0, 1)
 
 
-# α = 1e-3 loses ten digits: doubles cannot tell a zero pivot from its rounding then. In growing_rank the smoother of
-# any rule with a negative weight downdates by a column that is zero but for rounding.
+# α = 1e-3 loses ten digits: by its weights, doubles cannot tell a zero pivot from its rounding then. In growing_rank the
+# smoother of any rule with a negative weight downdates by a column that is zero but for rounding. Fifty digits can.
 SMALL = ("unscented_small",)
 RADAR, POSITION = ("range", "bearing"), ("px", "py")
 PLANS = {
@@ -71,9 +71,9 @@ PLANS = {
     ),
     "fixed_step": Plan(6, [(t, ALL) for t in (0.25, 1.0, 1.5, 3.0, 3.25, 4.25, 5.0, 5.5, 6.75, 7.0)], lag=True),
     "known_state": Plan(7, every(2.0, 10)),
-    "duplicated_state": Plan(8, every(0.5, 10), without=SMALL),
-    "no_noise": Plan(9, every(0.5, 12), without=SMALL),
-    "growing_rank": Plan(10, every(1.0, 10), without=SMALL + ("unscented", "unscented_half")),
+    "duplicated_state": Plan(8, every(0.5, 10), hard=SMALL),
+    "no_noise": Plan(9, every(0.5, 12), hard=SMALL),
+    "growing_rank": Plan(10, every(1.0, 10), hard=SMALL + ("unscented", "unscented_half")),
     "reentry": Plan(
         11,
         every(0.5, 60),

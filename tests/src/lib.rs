@@ -1,7 +1,31 @@
 //! What the tests share: golden values, and comparison in units of a standard deviation.
 
+pub mod ill_conditioned;
+pub mod scenario;
+
 use serde_json::Value;
 use std::path::PathBuf;
+
+/// The scenarios of `golden` with expected values.
+pub const SCENARIOS: [&str; 17] = [
+    "missing",
+    "crossing",
+    "degrees",
+    "three_d",
+    "driven",
+    "fixed_step",
+    "known_state",
+    "duplicated_state",
+    "no_noise",
+    "growing_rank",
+    "reentry",
+    "prediction_rows",
+    "one_time",
+    "innovation_fails",
+    "posterior_fails",
+    "predicted_fails",
+    "conditional_fails",
+];
 
 /// A file of golden values.
 #[must_use]
@@ -21,26 +45,45 @@ pub fn numbers(value: &Value) -> Vec<f64> {
     }
 }
 
-/// The largest |Δ_i| / σ_i.
+/// The symmetric matrix with this lower triangle, row by row.
+#[must_use]
+pub fn lower(triangle: &[f64]) -> Vec<f64> {
+    let n = ((8 * triangle.len() + 1).isqrt() - 1) / 2;
+    assert_eq!(n * (n + 1) / 2, triangle.len(), "not a triangle");
+    let at = |i: usize, j: usize| triangle[i * (i + 1) / 2 + j];
+    (0..n * n).map(|k| at((k / n).max(k % n), (k / n).min(k % n))).collect()
+}
+
+/// The largest |Δ_i| / σ_i; where σ_i = 0, |Δ_i| / max(1, |expected_i|).
 #[must_use]
 pub fn mean_error(found: &[f64], expected: &[f64], cov: &[f64]) -> f64 {
     let n = expected.len();
     assert_eq!(found.len(), n);
-    let sigma = |i: usize| cov[i * n + i].sqrt();
-    (0..n).map(|i| scaled((found[i] - expected[i]).abs(), sigma(i))).fold(0.0, f64::max)
+    let scale = |i: usize| match sigma(cov, n, i) {
+        0.0 => expected[i].abs().max(1.0),
+        sigma => sigma,
+    };
+    worst((0..n).map(|i| (found[i] - expected[i]).abs() / scale(i)))
 }
 
-/// The largest |ΔP_ij| / (σ_i σ_j).
+/// The largest |ΔP_ij| / (σ_i σ_j); where that is zero, |ΔP_ij|.
 #[must_use]
 pub fn cov_error(found: &[f64], expected: &[f64], n: usize) -> f64 {
-    assert_eq!(found.len(), n * n);
-    let sigma = |i: usize| expected[i * n + i].sqrt();
-    let element = |i: usize, j: usize| (found[i * n + j] - expected[i * n + j]).abs();
-    (0..n * n).map(|k| scaled(element(k / n, k % n), sigma(k / n) * sigma(k % n))).fold(0.0, f64::max)
+    assert_eq!((found.len(), expected.len()), (n * n, n * n));
+    let scale = |i: usize, j: usize| match sigma(expected, n, i) * sigma(expected, n, j) {
+        0.0 => 1.0,
+        scale => scale,
+    };
+    worst((0..n * n).map(|k| (found[k] - expected[k]).abs() / scale(k / n, k % n)))
 }
 
-/// 0 / 0 is no error: a state known exactly. A NaN is an infinite one.
-fn scaled(difference: f64, scale: f64) -> f64 {
-    let ratio = if difference == 0.0 { 0.0 } else { difference / scale };
-    if ratio.is_nan() { f64::INFINITY } else { ratio }
+/// Standard deviation of component `i`; the oracle's zero is the rounding of its fifty digits.
+fn sigma(cov: &[f64], n: usize, i: usize) -> f64 {
+    let variance = cov[i * n + i];
+    if variance < 1e-60 { 0.0 } else { variance.sqrt() }
+}
+
+/// The largest of the errors; a NaN is an infinite one.
+pub fn worst(errors: impl Iterator<Item = f64>) -> f64 {
+    errors.fold(0.0, |worst, error| if error.is_nan() { f64::INFINITY } else { error.max(worst) })
 }

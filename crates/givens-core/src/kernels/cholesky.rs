@@ -1,13 +1,14 @@
 //! Cholesky factorisation of a positive semidefinite matrix.
 
 use super::Health;
+use super::rest::{errors_above, norm};
 use crate::scalar::{Mask, Real};
 
 /// The lower-triangular S with P = S Sᵀ and diagonal ≥ 0, in place; the strict upper triangle is cleared.
 ///
-/// Only the lower triangle of `a` (n × n) is read. A pivot within 64 n ε of its own diagonal element is zero, and
-/// so is its column then; health names the first pivot that is negative, not a number, or a zero with a column that
-/// is not. Those lanes end in NaN.
+/// Only the lower triangle of `a` (n × n) is read. A pivot is zero if it is within the rounding that errors of
+/// 64 n ε in the elements (relative to the standard deviations) leave in it, and so is its column then; health names
+/// the first pivot that is negative, not a number, or a zero with a column that is not. Those lanes end in NaN.
 ///
 /// ```
 /// use givens_core::kernels::cholesky;
@@ -22,8 +23,8 @@ pub fn cholesky<T: Real>(a: &mut [T], n: usize) -> Health<T> {
     factorise(a, n, 64.0, |_, own| own)
 }
 
-/// [`cholesky`] of a computed difference of matrices: a pivot is zero within 8 n ε of `scale`, the diagonal before
-/// the subtraction (length n), since that is the size of its rounding.
+/// [`cholesky`] of a computed difference of matrices: the errors are 8 n ε of `scale`, the diagonal before the
+/// subtraction (length n), since that is the size of its rounding.
 #[inline(always)]
 pub fn cholesky_scaled<T: Real>(a: &mut [T], n: usize, scale: &[T]) -> Health<T> {
     factorise(a, n, 8.0, |i, own| T::select(scale[i].lt(own), own, scale[i]))
@@ -36,10 +37,18 @@ fn factorise<T: Real>(a: &mut [T], n: usize, rounding: f64, scale: impl Fn(usize
     let tolerance = T::of(rounding * n as f64 * T::EPSILON);
     for j in 0..n {
         let own = a[j * n + j];
-        let rounding = tolerance * scale(j, own);
+        let mut rounding = tolerance * scale(j, own);
+        let pivot = a[j * n..j * n + j].iter().fold(own, |rest, &x| (-x).mul_add(x, rest));
+        if pivot.lt(T::of(1e-3) * own).any() {
+            let above = errors_above(a, n, j, |k, row| {
+                let own = norm(row);
+                scale(k, own * own).abs().sqrt()
+            });
+            let sigma = scale(j, own).abs().sqrt() + above;
+            rounding = tolerance * sigma * sigma;
+        }
         let (head, tail) = a.split_at_mut((j + 1) * n);
         let row = &mut head[j * n..];
-        let pivot = row[..j].iter().fold(own, |rest, &x| (-x).mul_add(x, rest));
         let nothing = pivot.abs().le(rounding);
         health.note(!nothing & !zero.lt(pivot), j);
         let root = T::select(nothing, zero, pivot.sqrt());

@@ -1,13 +1,15 @@
 //! Downdate of a triangular factor by one column.
 
 use super::Health;
-use crate::scalar::Real;
+use super::rest::{errors_above, norm};
+use crate::scalar::{Mask, Real};
 
-/// L with L Lᵀ − v vᵀ in place of L Lᵀ, L lower triangular n × n in rows of length `stride` (`spec` §0).
+/// L with L Lᵀ − v vᵀ in place of L Lᵀ, L lower triangular n × n in rows of length `stride` (docs/algorithms.md §2).
 ///
-/// `v` (length n) is used up. The square of pivot k is r² = L_kk² − v_k², known to τ = 64 ε ‖row k‖ max(L_kk, |v_k|):
-/// below −τ it is the failure that health names; within τ of zero the column is zero and the downdate ends, unless
-/// L_kk and v_k were themselves zero to rounding, when it goes on with the next row.
+/// `v` (length n) is used up, and the triangle above the diagonal, which must be zero, stays so. The square of pivot k
+/// is r² = L_kk² − v_k², known to τ = e max(L_kk, |v_k|), where e is 64 ε ‖row k‖ and what the errors of the rows
+/// above have made of it: below −τ it is the failure that health names; within τ of zero the column is zero and the
+/// downdate ends, unless L_kk and v_k were themselves zero to rounding, when it goes on with the next row.
 ///
 /// ```
 /// use givens_core::kernels::downdate;
@@ -21,13 +23,15 @@ pub fn downdate<T: Real>(l: &mut [T], n: usize, stride: usize, v: &mut [T]) -> H
     let mut health = Health::good();
     let (zero, one) = (T::zero(), T::one());
     for k in 0..n {
-        let row = &l[k * stride..][..=k];
-        let norm = row.iter().fold(zero, |sum, &x| x.mul_add(x, sum)).sqrt();
-        let (pivot, vk) = (row[k], v[k]);
-        let size = pivot.max(vk.abs());
-        let rounding = T::of(64.0 * T::EPSILON) * norm;
-        let r2 = (pivot - vk) * (pivot + vk);
+        let (pivot, vk) = (l[k * stride + k], v[k]);
         let untouched = vk.same(zero);
+        let mut own = norm(&l[k * stride..=k * stride + k]);
+        let r2 = (pivot - vk) * (pivot + vk);
+        if (!untouched & !(T::of(1e-6) * own * own).lt(r2)).any() {
+            own += errors_above(l, stride, k, |_, row| norm(row));
+        }
+        let size = pivot.max(vk.abs());
+        let rounding = T::of(64.0 * T::EPSILON) * own;
         let absent = size.le(rounding) & !untouched;
         let spent = r2.abs().le(rounding * size) & !untouched & !absent;
         health.note(!untouched & !absent & !(-(rounding * size)).le(r2), k);
@@ -41,7 +45,7 @@ pub fn downdate<T: Real>(l: &mut [T], n: usize, stride: usize, v: &mut [T]) -> H
             let below = l[i * stride + k];
             // a zero square of the pivot forces a zero column: what is left of it must be within its rounding
             let left = below.abs() - v[i].abs();
-            let row_norm = l[i * stride..][..=i].iter().fold(v[i].abs(), |m, &x| m.max(x.abs()));
+            let row_norm = l[i * stride..=i * stride + i].iter().fold(v[i].abs(), |m, &x| m.max(x.abs()));
             let allowed = (rounding * size).sqrt() * (row_norm + row_norm);
             health.note(spent & !left.abs().le(allowed), k);
             let x = (below - s * v[i]) / c;

@@ -7,6 +7,7 @@ mod cholesky;
 mod downdate;
 mod health;
 mod product;
+mod rest;
 mod solve;
 mod sweep;
 mod tria;

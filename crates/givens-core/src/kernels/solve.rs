@@ -1,9 +1,9 @@
-//! Substitution with triangular factors; a zero pivot gives a zero (`spec` §0: the generalised inverse).
+//! Substitution with triangular factors; a zero pivot gives a zero (docs/algorithms.md §2: the generalised inverse).
 
 use crate::scalar::Real;
 
 #[inline(always)]
-fn inverse_or_zero<T: Real>(pivot: T) -> T {
+pub(super) fn inverse_or_zero<T: Real>(pivot: T) -> T {
     T::select(pivot.same(T::zero()), T::zero(), pivot.recip())
 }
 

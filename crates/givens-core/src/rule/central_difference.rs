@@ -31,6 +31,10 @@ impl Rule for CentralDifference {
         Shape { table: 0, points: 2 * n + 1, plus: n, minus: 0 }
     }
 
+    fn rounding(&self, n: usize) -> f64 {
+        Real::sqrt(n as f64) / self.eta
+    }
+
     fn tabulate<T: Real>(&self, _: usize, _: &mut [T]) {}
 
     #[inline(always)]

@@ -1,7 +1,7 @@
 //! Fifth-degree spherical-radial cubature.
 
 use super::points::TABLE_STATES;
-use super::{Centre, Pairs, PointRule, RuleError};
+use super::{Pairs, PointRule, RuleError};
 use crate::scalar::Real;
 
 /// 2n² + 1 points: the mean, √(n+2) (±e_j ± e_k)/√2 and ±√(n+2) e_i; exact for all monomials of degree 5
@@ -17,9 +17,8 @@ impl PointRule for Cubature5 {
         }
         Ok(())
     }
-    fn centre(&self, n: usize) -> Option<Centre> {
-        let weight = 2.0 / (n as f64 + 2.0);
-        Some(Centre { mean: weight, cov: weight })
+    fn centre(&self, n: usize) -> Option<f64> {
+        Some(2.0 / (n as f64 + 2.0))
     }
     /// First the n (n − 1) pairs between two axes, then those along an axis; at n = 4 these weigh nothing.
     fn pairs(&self, n: usize) -> Pairs {

@@ -1,7 +1,7 @@
 //! Gauss–Hermite quadrature on a tensor grid.
 
 use super::points::TABLE_STATES;
-use super::{Centre, Pairs, PointRule, RuleError};
+use super::{Pairs, PointRule, RuleError};
 use crate::scalar::Real;
 
 /// pⁿ points, the roots of the probabilists' Hermite polynomial of degree p along every axis: exact for
@@ -41,11 +41,8 @@ impl PointRule for GaussHermite {
         }
         Ok(())
     }
-    fn centre(&self, n: usize) -> Option<Centre> {
-        (self.points % 2 == 1).then(|| {
-            let weight = (0..n).fold(1.0, |product, _| product * weight(self.points, 0.0));
-            Centre { mean: weight, cov: weight }
-        })
+    fn centre(&self, n: usize) -> Option<f64> {
+        (self.points % 2 == 1).then(|| (0..n).fold(1.0, |product, _| product * weight(self.points, 0.0)))
     }
     /// Node i of the grid and node pⁿ − 1 − i are opposite.
     fn pairs(&self, n: usize) -> Pairs {

@@ -1,4 +1,4 @@
-//! Rules: how the moments of g(x), x ~ N(m, S Sᵀ), are computed (`spec` §1).
+//! Rules: how the moments of g(x), x ~ N(m, S Sᵀ), are computed (docs/algorithms.md §3).
 //!
 //! Every rule answers with a [`Spread`]: the mean of g, the part D of its spread that moves with S, and the rest E,
 //! so that cov(g) = D Dᵀ + E J Eᵀ and cov(x, g) = S Dᵀ, J the signs of the rest's columns. For a rule of points, D is
@@ -18,7 +18,7 @@ pub use central_difference::CentralDifference;
 pub use cubature3::Cubature3;
 pub use cubature5::Cubature5;
 pub use gauss_hermite::GaussHermite;
-pub use points::{Centre, Pairs, PointRule};
+pub use points::{Pairs, PointRule};
 pub use taylor::Taylor;
 pub use unscented::Unscented;
 
@@ -72,6 +72,12 @@ pub trait Rule: Copy {
 
     /// The sizes for a state of length `n`.
     fn shape(&self, n: usize) -> Shape;
+
+    /// The error of a row of [D E], in Euclidean norm, that a unit error in every value of g makes.
+    fn rounding(&self, n: usize) -> f64 {
+        let _ = n;
+        1.0
+    }
 
     /// Writes the table of nodes and weights, once per filter.
     fn tabulate<T: Real>(&self, n: usize, table: &mut [T]);

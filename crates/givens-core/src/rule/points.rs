@@ -5,15 +5,6 @@ use super::{Rule, RuleError, Shape, Spread};
 use crate::model::{At, Map};
 use crate::scalar::Real;
 
-/// The weights of the point at the mean.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Centre {
-    /// In the mean.
-    pub mean: f64,
-    /// In the covariance.
-    pub cov: f64,
-}
-
 /// The pairs ±ξ of a rule.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Pairs {
@@ -21,6 +12,9 @@ pub enum Pairs {
     Axes {
         /// Distance of the points from the mean, in standard deviations.
         radius: f64,
+        /// The weight of b² in the covariance, b being what the curvature moves the mean by: w^c₀ − w₀ − 1 + radius²/n,
+        /// with the centre's weights in covariance and mean.
+        bend: f64,
     },
     /// `count` pairs from [`PointRule::pair`], the last `negative` of them of negative weight.
     Table {
@@ -43,8 +37,8 @@ pub trait PointRule: Copy {
         let _ = n;
         Ok(())
     }
-    /// The weights of the point at the mean, if there is one.
-    fn centre(&self, n: usize) -> Option<Centre>;
+    /// The weight of the point at the mean, if there is one.
+    fn centre(&self, n: usize) -> Option<f64>;
     /// The pairs.
     fn pairs(&self, n: usize) -> Pairs;
     /// Writes the unit point ξ of pair `l` and returns its weight (that of each of the two).
@@ -63,21 +57,35 @@ impl<R: PointRule> Rule for R {
     }
 
     fn shape(&self, n: usize) -> Shape {
-        let (centre_plus, centre_minus) = match self.centre(n) {
-            Some(c) if c.cov < 0.0 => (0, 1),
-            Some(_) => (1, 0),
-            None => (0, 0),
-        };
         match self.pairs(n) {
-            Pairs::Axes { .. } => {
-                Shape { table: 0, points: 2 * n + 1, plus: n + centre_plus, minus: centre_minus }
-            }
-            Pairs::Table { count, negative } => Shape {
-                table: count * (n + 2),
-                points: 2 * count + 1,
-                plus: 2 * (count - negative) + centre_plus,
-                minus: 2 * negative + centre_minus,
+            Pairs::Axes { bend, .. } => Shape {
+                table: 0,
+                points: 2 * n + 1,
+                plus: n + usize::from(bend > 0.0),
+                minus: usize::from(bend < 0.0),
             },
+            Pairs::Table { count, negative } => {
+                let (plus, minus) = match self.centre(n) {
+                    Some(weight) if weight < 0.0 => (0, 1),
+                    Some(_) => (1, 0),
+                    None => (0, 0),
+                };
+                Shape {
+                    table: count * (n + 2),
+                    points: 2 * count + 1,
+                    plus: 2 * (count - negative) + plus,
+                    minus: 2 * negative + minus,
+                }
+            }
+        }
+    }
+
+    fn rounding(&self, n: usize) -> f64 {
+        match self.pairs(n) {
+            Pairs::Axes { radius, bend } => {
+                Real::sqrt(n as f64) / radius * (1.0 + Real::sqrt(Real::abs(bend)) / radius)
+            }
+            Pairs::Table { .. } => 1.0,
         }
     }
 
@@ -110,7 +118,9 @@ impl<R: PointRule> Rule for R {
         let n = mean.len();
         let centre = self.centre(n);
         match self.pairs(n) {
-            Pairs::Axes { radius } => along_axes(radius, centre, g, at, mean, factor, out, scratch),
+            Pairs::Axes { radius, bend } => {
+                along_axes(radius, bend, centre.is_some(), g, at, mean, factor, out, scratch);
+            }
             Pairs::Table { count, negative } => {
                 from_table(table, count, negative, centre, g, at, mean, factor, out, scratch);
             }
@@ -118,11 +128,17 @@ impl<R: PointRule> Rule for R {
     }
 }
 
-/// D_i = (y₊ − y₋)/(2 radius), E_i = √(2w) ((y₊ + y₋)/2 − ȳ), and the centre.
+/// D_i = (y₊ − y₋)/(2 radius), E_i = (δ_i − δ̄)/radius with δ_i = (y₊ + y₋)/2 − y₀ and δ̄ the mean of all δ_i, and one
+/// column √|bend| b with b = ȳ − y₀ = n δ̄/radius².
+///
+/// That is the centre's column and the deviations (y − ȳ) rearranged, so that weights of opposite sign do not meet:
+/// Σ (δ_i − b)²/radius² + w^c₀ b² = Σ (δ_i − δ̄)²/radius² + bend b². Only a negative `bend` needs a downdate, and small
+/// α do not cancel.
 #[inline(always)]
 fn along_axes<T: Real, G: Map>(
     radius: f64,
-    centre: Option<Centre>,
+    bend: f64,
+    centred: bool,
     g: &G,
     at: &At<T>,
     mean: &[T],
@@ -132,20 +148,31 @@ fn along_axes<T: Real, G: Map>(
 ) {
     let n = mean.len();
     let rho = T::of(radius);
-    let images = evaluate(g, at, mean, n, centre.is_some(), |i, l| rho * factor[i * n + l], scratch);
-    let weight = T::of(0.5 / (radius * radius));
-    let (odd, even) = (T::of(0.5 / radius), T::of(1.0 / radius));
+    let images = evaluate(g, at, mean, n, centred, |i, l| rho * factor[i * n + l], scratch);
+    // without a centre, n/radius² = 1
+    let shift = if centred { n as f64 / (radius * radius) } else { 1.0 };
+    let (share, shift) = (T::of(1.0 / n as f64), T::of(shift));
+    let (odd, even, half) = (T::of(0.5 / radius), T::of(1.0 / radius), T::of(0.5));
+    let curvature = T::of(Real::sqrt(Real::abs(bend)));
     for i in 0..g.outputs() {
         let (plus, minus, at_mean) = images.row(i);
-        let reference = if centre.is_some() { at_mean } else { None };
-        let ybar = pair_mean(plus, minus, reference, |_| weight);
+        // a component without spread must have no deviation, not one of rounding, which would pass for a direction
+        let near = if centred { at_mean.unwrap_or(plus[0]) } else { plus[0] };
+        let middle = |p: T, m: T| half * ((p - near) + (m - near));
+        let sum = plus.iter().zip(minus).fold(T::zero(), |sum, (&p, &m)| sum + middle(p, m));
+        let average = share * sum;
         let row = &mut out.dev[i * out.stride..(i + 1) * out.stride];
         for l in 0..n {
             row[l] = odd * (plus[l] - minus[l]);
-            row[n + l] = even * (T::of(0.5) * (plus[l] + minus[l]) - ybar);
+            row[n + l] = even * (middle(plus[l], minus[l]) - average);
         }
-        put_centre(centre, reference, ybar, &mut row[2 * n..], out.minus.get_mut(i));
-        out.mean[i] = ybar;
+        let b = shift * average;
+        out.mean[i] = near + b;
+        if bend > 0.0 {
+            row[2 * n] = curvature * b;
+        } else if bend < 0.0 {
+            out.minus[i] = curvature * b;
+        }
     }
 }
 
@@ -155,7 +182,7 @@ fn from_table<T: Real, G: Map>(
     table: &[T],
     count: usize,
     negative: usize,
-    centre: Option<Centre>,
+    centre: Option<f64>,
     g: &G,
     at: &At<T>,
     mean: &[T],
@@ -172,11 +199,19 @@ fn from_table<T: Real, G: Map>(
     let images = evaluate(g, at, mean, count, centre.is_some(), offset, scratch);
     let half = T::of(0.5);
     let positive = count - negative;
-    let minus_columns = 2 * negative + usize::from(centre.is_some_and(|c| c.cov < 0.0));
+    let minus_columns = 2 * negative + usize::from(centre.is_some_and(|weight| weight < 0.0));
     for i in 0..g.outputs() {
         let (plus, minus, at_mean) = images.row(i);
         let reference = if centre.is_some() { at_mean } else { None };
-        let ybar = pair_mean(plus, minus, reference, |l| weights[l]);
+        // the weights sum to one: averaged about one of the images, the sum over many points stays small, and a component
+        // without spread has no deviation of rounding
+        let near = reference.unwrap_or(plus[0]);
+        let shift = plus
+            .iter()
+            .zip(minus)
+            .zip(weights)
+            .fold(T::zero(), |sum, ((&p, &m), &w)| w.mul_add((p - near) + (m - near), sum));
+        let ybar = near + shift;
         let row = &mut out.dev[i * out.stride..(i + 1) * out.stride];
         let lost = &mut out.minus[i * minus_columns..(i + 1) * minus_columns];
         for j in 0..n {
@@ -202,28 +237,19 @@ fn from_table<T: Real, G: Map>(
     }
 }
 
-/// ȳ = r + Σ w ((y₊ − r) + (y₋ − r)), since the weights sum to one; r is the centre's image, or the first one. So a
-/// component without spread has no deviation, not one of rounding, which would pass for a direction of its own.
-#[inline(always)]
-fn pair_mean<T: Real>(plus: &[T], minus: &[T], centre: Option<T>, weight: impl Fn(usize) -> T) -> T {
-    let r = centre.unwrap_or(plus[0]);
-    let pairs = plus.iter().zip(minus).enumerate();
-    pairs.fold(r, |sum, (l, (&p, &m))| weight(l).mul_add((p - r) + (m - r), sum))
-}
-
 /// The centre's column √|w| (y₀ − ȳ), among the positive or the negative ones by the sign of its weight.
 #[inline(always)]
 fn put_centre<T: Real>(
-    centre: Option<Centre>,
+    centre: Option<f64>,
     image: Option<T>,
     ybar: T,
     plus: &mut [T],
     minus: Option<&mut T>,
 ) {
-    let (Some(centre), Some(image)) = (centre, image) else { return };
-    let column = T::of(Real::sqrt(Real::abs(centre.cov))) * (image - ybar);
+    let (Some(weight), Some(image)) = (centre, image) else { return };
+    let column = T::of(Real::sqrt(Real::abs(weight))) * (image - ybar);
     match minus {
-        Some(minus) if centre.cov < 0.0 => *minus = column,
+        Some(minus) if weight < 0.0 => *minus = column,
         _ => plus[0] = column,
     }
 }

@@ -17,6 +17,10 @@ impl Rule for Taylor {
         Shape { table: 0, points: 0, plus: 0, minus: 0 }
     }
 
+    fn rounding(&self, _: usize) -> f64 {
+        0.0
+    }
+
     fn tabulate<T: Real>(&self, _: usize, _: &mut [T]) {}
 
     #[inline(always)]

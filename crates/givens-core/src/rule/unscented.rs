@@ -1,6 +1,6 @@
 //! The unscented transform, plain and scaled.
 
-use super::{Centre, Pairs, PointRule, RuleError};
+use super::{Pairs, PointRule, RuleError};
 use crate::scalar::Real;
 
 /// 2n + 1 points: the mean, and ±√(n + λ) e_i with λ = α² (n + κ) − n (Julier & Uhlmann 1997; Wan & van der Merwe 2000).
@@ -54,12 +54,14 @@ impl PointRule for Unscented {
         }
         Ok(())
     }
-    fn centre(&self, n: usize) -> Option<Centre> {
+    fn centre(&self, n: usize) -> Option<f64> {
         let radius2 = self.radius2(n);
-        let mean = (radius2 - n as f64) / radius2;
-        Some(Centre { mean, cov: mean + 1.0 - self.alpha * self.alpha + self.beta })
+        Some((radius2 - n as f64) / radius2)
     }
     fn pairs(&self, n: usize) -> Pairs {
-        Pairs::Axes { radius: Real::sqrt(self.radius2(n)) }
+        // w^c₀ − w₀ = 1 − α² + β, and radius² = α² (n + κ)
+        let kappa = self.kappa.unwrap_or(3.0 - n as f64);
+        let bend = self.beta + self.alpha * self.alpha * kappa / n as f64;
+        Pairs::Axes { radius: Real::sqrt(self.radius2(n)), bend }
     }
 }

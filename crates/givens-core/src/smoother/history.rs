@@ -1,6 +1,6 @@
 //! The record of a filter's time updates, in memory that the caller lends: all of them, or a ring of the last ones.
 
-use super::back::{Passage, back_scratch, step_back};
+use super::back::{Passage, back_scratch, mean_back, step_back};
 use crate::filter::memory::take;
 use crate::filter::{Belief, Filter, Form, Grow, Method, Prior, StepError};
 use crate::model::Transition;
@@ -136,6 +136,21 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
         self.go_back::<F>(start.time, skip, steps, visit)
     }
 
+    /// The means alone, by the gains alone (2011 §7, remark ii): `mean`, of length n, is that of the latest record's end,
+    /// and becomes the smoothed one at each earlier time in turn.
+    pub fn smooth_means(&mut self, mean: &mut [T], steps: usize, mut visit: impl FnMut(usize, &[T])) {
+        let (newest, capacity, count) = (self.oldest + self.count, self.capacity, self.count);
+        let (square_root, len) = (self.square_root, Self::record_len(self.states, self.square_root));
+        let (_, records, scratch) = self.carve(0);
+        visit(0, mean);
+        for age in 1..=steps.min(count) {
+            let slot = (newest - age) % capacity;
+            let passage = passage(&records[slot * len..(slot + 1) * len], mean.len(), square_root);
+            mean_back(&passage, mean, scratch);
+            visit(age, mean);
+        }
+    }
+
     /// The belief on its way back, the records, and scratch.
     fn carve(&mut self, square: usize) -> (Belief<'_, T>, &[T], &mut [T]) {
         let (n, len) = (self.states, Self::record_len(self.states, self.square_root));
@@ -161,20 +176,7 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
         visit(0, &belief);
         for age in 1..=steps.min(count - skip.min(count)) {
             let slot = (newest - age) % capacity;
-            let mut record = &records[slot * len..(slot + 1) * len];
-            let mut next = |len: usize| {
-                let (head, tail) = record.split_at(len);
-                record = tail;
-                head
-            };
-            let passage = Passage {
-                mean: next(n),
-                cov: next(square),
-                predicted_mean: next(n),
-                predicted_cov: next(square),
-                gain: next(n * n),
-                conditional: next(n * n - square),
-            };
+            let passage = passage(&records[slot * len..(slot + 1) * len], n, F::SQUARE_ROOT);
             step_back::<T, F>(&passage, &mut belief, rest).map_err(|fault| StepError {
                 fault,
                 time,
@@ -183,5 +185,23 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
             visit(age, &belief);
         }
         Ok(())
+    }
+}
+
+/// The arrays of one record.
+fn passage<T>(mut record: &[T], n: usize, square_root: bool) -> Passage<'_, T> {
+    let square = if square_root { 0 } else { n * n };
+    let mut next = |len: usize| {
+        let (head, tail) = record.split_at(len);
+        record = tail;
+        head
+    };
+    Passage {
+        mean: next(n),
+        cov: next(square),
+        predicted_mean: next(n),
+        predicted_cov: next(square),
+        gain: next(n * n),
+        conditional: next(n * n - square),
     }
 }

@@ -1,7 +1,7 @@
 //! Methods of run time: the rules made of points are data, so all of them share one compiled filter.
 
 use crate::filter::{Block, Form, Method};
-use crate::rule::{Centre, Cubature3, Cubature5, GaussHermite, Pairs, PointRule, Rule, RuleError, Unscented};
+use crate::rule::{Cubature3, Cubature5, GaussHermite, Pairs, PointRule, Rule, RuleError, Unscented};
 use core::marker::PhantomData;
 
 /// Any rule that is made of points.
@@ -28,7 +28,7 @@ impl PointRule for AnyPoints {
     fn check(&self, n: usize) -> Result<(), RuleError> {
         each!(self, rule => PointRule::check(rule, n))
     }
-    fn centre(&self, n: usize) -> Option<Centre> {
+    fn centre(&self, n: usize) -> Option<f64> {
         each!(self, rule => rule.centre(n))
     }
     fn pairs(&self, n: usize) -> Pairs {

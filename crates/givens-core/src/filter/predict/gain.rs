@@ -19,16 +19,20 @@ pub struct Backward<'a, T> {
 /// Scalars of scratch of [`gain_of_factor`], for `rest` columns of E and noise.
 pub(super) const fn gain_scratch(n: usize, rest: usize) -> usize {
     let wide = if rest > n { rest } else { n };
-    n * wide + 4 * n * n + 3 * n
+    n * wide + 4 * n * n + 4 * n
 }
 
 /// [U11 0; U21 U22] = Tria([D E S_Q; S 0 0]), G = U21/U11, conditional root U22 (2011 Table 3).
+///
+/// `size(i)` is the magnitude of the numbers whose differences make row i of `dev`: their rounding bounds what may be
+/// divided by.
 #[inline(always)]
 pub(super) fn gain_of_factor<T: Real>(
     dev: &[T],
     stride: usize,
     minus: &[T],
     factor: &[T],
+    size: impl Fn(usize) -> T,
     back: &mut Backward<T>,
     mut scratch: &mut [T],
 ) -> Result<T::Mask, Fault> {
@@ -38,6 +42,11 @@ pub(super) fn gain_of_factor<T: Real>(
     let noise = take(&mut scratch, n * wide);
     let block = take(&mut scratch, 4 * n * n);
     let column = take(&mut scratch, 2 * n);
+    let rounding = take(&mut scratch, n);
+    for (i, (error, row)) in rounding.iter_mut().zip(dev.chunks_exact(stride)).enumerate() {
+        let norm = row.iter().fold(T::zero(), |sum, &x| x.mul_add(x, sum)).sqrt();
+        *error = T::of(8.0 * T::EPSILON) * T::of(n as f64).mul_add(norm, size(i));
+    }
     for (to, from) in noise.chunks_exact_mut(wide).zip(dev.chunks_exact(stride)) {
         to[..rest].copy_from_slice(&from[n..]);
     }
@@ -48,7 +57,7 @@ pub(super) fn gain_of_factor<T: Real>(
         block[i * 2 * n + n..][..n].copy_from_slice(&dev[i * stride..][..n]);
     }
     put_columns(&mut block[2 * n * n..], 2 * n, n, factor, n);
-    sick = sick | sweep(block, n, n, scratch).sick;
+    sick = sick | sweep(block, n, n, rounding, scratch).sick;
     let columns = minus.len() / n;
     for k in 0..columns {
         column.fill(T::zero());
@@ -110,7 +119,7 @@ pub(crate) const fn accumulate_scratch(n: usize) -> usize {
     3 * n * n
 }
 
-/// Chains a later step onto an earlier one (`spec` §6): D ← Tria([D  Γ D']), Γ ← Γ G'.
+/// Chains a later step onto an earlier one (docs/algorithms.md S3): D ← Tria([D  Γ D']), Γ ← Γ G'.
 ///
 /// Both hold n × n matrices; the conditional roots are empty in covariance form. `scratch` holds 3 n² scalars.
 #[inline(always)]

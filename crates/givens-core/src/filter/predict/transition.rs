@@ -1,4 +1,4 @@
-//! One step of a discrete model: m⁻ = E[f(x)], P⁻ = Cov[f(x)] + Q (2009 eq 25–27; 2011 Tables 1, 3).
+//! One step of a discrete model: m⁻ = E[f(x)], P⁻ = Cov[f(x)] + Q (2009 eq 38–42; 2011 Tables 1, 3).
 
 use super::gain::{Backward, gain_of_covariance, gain_of_factor, gain_scratch};
 use super::lanes;
@@ -57,7 +57,9 @@ pub(crate) fn predict<T: Real, M: Transition, R: Rule, F: Form>(
 
     if F::SQUARE_ROOT {
         if let Some(back) = back {
-            sick = sick | gain_of_factor(dev, stride, minus, belief.factor, back, scratch)?;
+            let rounding = T::of(rule.rounding(n));
+            let size = |i: usize| rounding * mean[i].abs().max(belief.mean[i].abs());
+            sick = sick | gain_of_factor(dev, stride, minus, belief.factor, size, back, scratch)?;
         }
         sick = sick | lanes(tria(dev, n, stride, stride), Matrix::Predicted)?;
         for column in 0..shape.minus {

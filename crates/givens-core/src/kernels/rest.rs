@@ -1,0 +1,37 @@
+//! How large rounding errors have become in a pivot.
+
+use super::solve::inverse_or_zero;
+use crate::scalar::Real;
+
+/// What is left of row k after the rows above it is row k less multiples of those rows, and so are its errors. Given
+/// `error(a, row a)` of the rows above, this is Σ |multiple_a| error_a, to which the caller adds that of row k.
+///
+/// `l` is lower triangular down to row k, in rows of length `stride`; its column k above the diagonal must be zero, and
+/// holds the multiples for a while. The sum is far above the error of any one row where the multiples are large.
+#[inline(always)]
+pub(super) fn errors_above<T: Real>(
+    l: &mut [T],
+    stride: usize,
+    k: usize,
+    error: impl Fn(usize, &[T]) -> T,
+) -> T {
+    let mut sum = T::zero();
+    for a in (0..k).rev() {
+        let rest = (a + 1..k)
+            .fold(l[k * stride + a], |rest, i| (-l[i * stride + k]).mul_add(l[i * stride + a], rest));
+        let row = &l[a * stride..=a * stride + a];
+        let multiple = rest * inverse_or_zero(row[a]);
+        sum = multiple.abs().mul_add(error(a, row), sum);
+        l[a * stride + k] = multiple;
+    }
+    for a in 0..k {
+        l[a * stride + k] = T::zero();
+    }
+    sum
+}
+
+/// The Euclidean norm of a row.
+#[inline(always)]
+pub(super) fn norm<T: Real>(row: &[T]) -> T {
+    row.iter().fold(T::zero(), |sum, &x| x.mul_add(x, sum)).sqrt()
+}

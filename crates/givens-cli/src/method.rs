@@ -4,7 +4,7 @@ use crate::args::MethodArgs;
 use crate::message::{Stop, say};
 use givens::registry::{Choice, FormName, RuleName, Setting, SettingError, Value, find, resolve};
 use givens_expr::suggest;
-use givens_io::{InputError, Location, Model, SettingValue};
+use givens_io::{Location, Model, SettingValue};
 
 /// The method where neither the file nor the command line names one: the best of this version, not the oldest.
 const DEFAULT: &str = "sr-ckf";
@@ -16,8 +16,21 @@ pub struct Named<'a> {
     pub name: &'a str,
 }
 
-/// A setting and where it came from; `None`: from the command line.
-type Sourced<'a> = (Setting, Option<&'a Location>);
+/// A setting of the command line, and how it was typed.
+#[derive(Clone)]
+pub struct Typed {
+    pub text: String,
+    pub setting: Setting,
+}
+
+/// Where a setting came from.
+#[derive(Clone)]
+enum Source<'a> {
+    File(&'a Location),
+    Line(String),
+}
+
+type Sourced<'a> = (Setting, Source<'a>);
 
 /// The method that the arguments ask for.
 pub fn chosen(model: &Model, args: &MethodArgs) -> Result<Choice, Stop> {
@@ -37,19 +50,19 @@ pub fn pair<'a>(option: &str, text: &'a str) -> Result<(&'a str, &'a str), Stop>
 }
 
 /// One setting of the command line.
-pub fn setting(text: &str) -> Result<Setting, Stop> {
+pub fn setting(text: &str) -> Result<Typed, Stop> {
     let (key, value) = pair("--set", text)?;
-    Ok(Setting { key: key.to_owned(), value: Value::from(value) })
+    Ok(Typed { text: text.to_owned(), setting: Setting { key: key.to_owned(), value: Value::from(value) } })
 }
 
 /// The method: `named` on the command line, or that of the file; with the settings of both. Of the file's settings,
 /// those that do not fit a method named on the command line are dropped, and that is said.
-pub fn choose(model: &Model, named: Option<Named>, own: &[Setting]) -> Result<Choice, Stop> {
+pub fn choose(model: &Model, named: Option<Named>, own: &[Typed]) -> Result<Choice, Stop> {
     let file = &model.filter;
     let of_file = file.method.as_ref().map(|(name, _)| name.as_str());
     let method = named.map(|named| named.name).or(of_file).unwrap_or(DEFAULT);
     let mut settings = of_the_file(model, named);
-    settings.extend(own.iter().map(|setting| (setting.clone(), None)));
+    settings.extend(own.iter().map(|own| (own.setting.clone(), Source::Line(format!("--set {}", own.text)))));
     loop {
         let plain: Vec<Setting> = settings.iter().map(|(setting, _)| setting.clone()).collect();
         let error = match resolve(method, &plain) {
@@ -57,20 +70,19 @@ pub fn choose(model: &Model, named: Option<Named>, own: &[Setting]) -> Result<Ch
             Err(error) => error,
         };
         let Some(at) = error.setting else {
-            let location = file.method.as_ref().filter(|_| named.is_none()).map(|(_, location)| location);
-            return Err(refused(
-                &error,
-                location,
-                named.map(|named| format!("{} {}", named.option, named.name)),
-            ));
+            let source = match (named, &file.method) {
+                (None, Some((_, location))) => Source::File(location),
+                (None, None) => Source::Line("the default".to_owned()),
+                (Some(named), _) => Source::Line(format!("{} {}", named.option, named.name)),
+            };
+            return Err(refused(&error, &source));
         };
-        let (setting, location) = &settings[at];
-        match (location, named) {
-            (Some(location), Some(_)) if error.unread => {
+        match (&settings[at], named) {
+            ((setting, Source::File(location)), Some(_)) if error.unread => {
                 say(&dropped(location, &setting.key, method));
                 settings.remove(at);
             }
-            _ => return Err(refused(&error, *location, Some(typed(setting)))),
+            ((_, source), _) => return Err(refused(&error, source)),
         }
     }
 }
@@ -97,7 +109,7 @@ fn of_the_file<'m>(model: &'m Model, named: Option<Named>) -> Vec<Sourced<'m>> {
                 continue;
             }
         }
-        settings.push((Setting { key: setting.key.clone(), value }, Some(&setting.location)));
+        settings.push((Setting { key: setting.key.clone(), value }, Source::File(&setting.location)));
     }
     settings
 }
@@ -108,8 +120,8 @@ fn in_range(model: &Model, choice: Choice, settings: &[Sourced]) -> Result<Choic
     let help = error.must.contains("(n:").then(|| format!("the model has n = {}", model.states.len()));
     let found = settings.iter().rev().find(|(setting, _)| setting.key == error.option);
     let stop = match found {
-        Some((_, Some(location))) => Stop::input(location.error(error.to_string()).to_string()),
-        Some((setting, None)) => Stop::input(format!("{}: {}", typed(setting), error.must)),
+        Some((_, Source::File(location))) => Stop::input(location.error(error.to_string()).to_string()),
+        Some((_, Source::Line(typed))) => Stop::input(format!("{typed}: {}", error.must)),
         None => Stop::input(error.to_string()),
     };
     Err(match help {
@@ -118,29 +130,22 @@ fn in_range(model: &Model, choice: Choice, settings: &[Sourced]) -> Result<Choic
     })
 }
 
-/// A setting as it was typed.
-fn typed(setting: &Setting) -> String {
-    format!("--set {}={}", setting.key, setting.value)
-}
-
 fn dropped(location: &Location, key: &str, method: &str) -> String {
     let line = location.place.as_ref().map_or(String::new(), |place| format!(":{}", place.line));
     format!("{}{line}: `{key}` of [filter] does not go with {method}: left out", location.file)
 }
 
 /// A refusal at its place: in the file, or in an option of the command line.
-fn refused(error: &SettingError, location: Option<&Location>, option: Option<String>) -> Stop {
+fn refused(error: &SettingError, source: &Source) -> Stop {
     let nearest = |(word, known): &(String, Vec<&'static str>)| match suggest(word, known.iter().copied()) {
         Some(near) => format!("did you mean `{near}`?"),
         None => format!("one of: {}", known.join(", ")),
     };
     let help = error.help.clone().or_else(|| error.unknown.as_ref().map(nearest));
-    if let Some(location) = location {
-        let told = location.error(&error.message);
-        return Stop::input(InputError { help, ..told }.to_string());
-    }
-    let option = option.map_or(String::new(), |option| format!("{option}: "));
-    let stop = Stop::input(format!("{option}{}", error.message));
+    let stop = match source {
+        Source::File(location) => Stop::input(location.error(&error.message).to_string()),
+        Source::Line(typed) => Stop::input(format!("{typed}: {}", error.message)),
+    };
     match help {
         Some(help) => stop.help(help),
         None => stop,

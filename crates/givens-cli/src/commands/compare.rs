@@ -3,7 +3,7 @@
 use crate::args::CompareArgs;
 use crate::files;
 use crate::message::{Stop, count, say};
-use crate::method::{Named, choose, setting};
+use crate::method::{Named, Typed, choose, setting};
 use crate::plan::{Plan, model};
 use crate::report::digits;
 use crate::session::Session;
@@ -48,38 +48,35 @@ fn choices(model: &Model, args: &CompareArgs) -> Result<Vec<Choice>, Stop> {
         let stop = Stop::input(format!("--methods {list}: a name is empty"));
         return Err(stop.help("write names with commas between: --methods ekf,sr-ckf"));
     }
-    let mut settings: Vec<(Option<&str>, Setting)> = Vec::new();
+    let mut settings: Vec<(Option<&str>, Typed)> = Vec::new();
     for text in &args.settings {
-        let whole = setting(text)?;
-        let Some((method, key)) = whole.key.split_once('.') else {
-            settings.push((None, whole));
+        let Typed { text, setting } = setting(text)?;
+        let Some((method, key)) = setting.key.split_once('.') else {
+            settings.push((None, Typed { text, setting }));
             continue;
         };
         let Some(named) = names.iter().find(|name| **name == method) else {
             return Err(Stop::input(format!("--set {text}: `{method}` is not among --methods"))
                 .help(format!("they are {}", names.join(", "))));
         };
-        settings.push((Some(named), Setting { key: key.to_owned(), value: whole.value }));
+        let setting = Setting { key: key.to_owned(), value: setting.value };
+        settings.push((Some(named), Typed { text, setting }));
     }
     let of = |name: &&str| -> Result<Choice, Stop> {
         let own = settings.iter().filter(|(method, _)| method.is_none_or(|method| method == *name));
-        let own: Vec<Setting> = own.map(|(_, setting)| setting.clone()).collect();
-        let choice = choose(model, Some(Named { option: "--methods", name }), &own);
-        choice
-            .map_err(|stop| if names.len() > 1 && !own.is_empty() { one_only(stop, &settings) } else { stop })
+        let own: Vec<Typed> = own.map(|(_, typed)| typed.clone()).collect();
+        choose(model, Some(Named { option: "--methods", name }), &own)
+            .map_err(|stop| one_only(stop, &settings))
     };
     names.iter().map(of).collect()
 }
 
 /// A setting of all methods that one of them does not read can be given to the others by name.
-fn one_only(stop: Stop, settings: &[(Option<&str>, Setting)]) -> Stop {
-    let all = settings.iter().filter(|(method, _)| method.is_none());
-    let mut unread =
-        all.filter(|(_, setting)| stop.message.contains(&format!("does not read `{}`", setting.key)));
-    match unread.next() {
-        Some((_, Setting { key, value })) => {
-            stop.help(format!("give it to one method alone: --set METHOD.{key}={value}"))
-        }
+fn one_only(stop: Stop, settings: &[(Option<&str>, Typed)]) -> Stop {
+    let mut all = settings.iter().filter(|(method, _)| method.is_none()).map(|(_, typed)| typed);
+    let unread = |typed: &&Typed| stop.message.contains(&format!("does not read `{}`", typed.setting.key));
+    match all.find(unread) {
+        Some(typed) => stop.help(format!("give it to one method alone: --set METHOD.{}", typed.text)),
         None => stop,
     }
 }

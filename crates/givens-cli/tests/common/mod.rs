@@ -1,6 +1,8 @@
 //! Runs the command in a folder of its own and looks at what it leaves.
 #![allow(dead_code, reason = "each test binary uses a part")]
 
+pub mod models;
+
 use serde_json::Value;
 use std::fs;
 use std::io::Write;

@@ -1,4 +1,4 @@
-//! The update in covariance form: P = P⁻ − W P_zz Wᵀ (2009 eq 31–38; 2011 Table 1).
+//! The update in covariance form: P = P⁻ − W P_zz Wᵀ (2009 eq 43–51; 2011 Table 1).
 
 use super::joint::pivots;
 use super::separate::cross;

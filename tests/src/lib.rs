@@ -1,5 +1,6 @@
 //! What the tests share: golden values, and comparison in units of a standard deviation.
 
+pub mod ill_conditioned;
 pub mod scenario;
 
 use serde_json::Value;

@@ -43,6 +43,7 @@ pub enum Command {
   givens compare turn.toml radar.csv --methods ekf,sr-ukf,sr-ckf --set sr-ukf.kappa=0 --truth truth.csv")]
     Compare(CompareArgs),
     /// List the methods, their parts and their options
+    #[command(after_help = "Example:\n  givens methods | grep unscented")]
     Methods,
     /// Tell what was understood of a model file
     #[command(after_help = "Example:\n  givens check turn.toml --set update=separate")]
@@ -112,7 +113,7 @@ pub struct SmoothArgs {
     #[command(flatten)]
     pub run: FilterArgs,
     /// Smooth each row with the next ROWS rows only
-    #[arg(long, value_name = "ROWS", conflicts_with = "point")]
+    #[arg(long, value_name = "ROWS", value_parser = whole, allow_negative_numbers = true, conflicts_with = "point")]
     pub lag: Option<usize>,
     /// Estimate the state at this one time, a line for each row from it on
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
@@ -125,21 +126,22 @@ pub struct SimulateArgs {
     pub model: ModelArgs,
     /// Until this time
     #[arg(long, value_name = "T", allow_hyphen_values = true, conflicts_with_all = ["steps", "times"])]
-    pub until: Option<f64>,
-    /// So many rows
-    #[arg(long, value_name = "N", conflicts_with = "times")]
+    pub until: Option<String>,
+    /// So many rows (where sensors share a column: so many of each)
+    #[arg(long, value_name = "N", value_parser = whole, allow_negative_numbers = true, conflicts_with = "times")]
     pub steps: Option<usize>,
     /// Time between rows; the model's step without it
-    #[arg(long, value_name = "DT", conflicts_with = "times")]
+    #[arg(long, value_name = "DT", value_parser = number, allow_negative_numbers = true, conflicts_with = "times")]
     pub every: Option<f64>,
-    /// At the rows of this table: its times, tracks, sensors, controls; where it has measures, those that it has
+    /// At the rows of this table (CSV): its times, tracks, sensors and controls; where it has columns of measures, only
+    /// the cells that are filled are drawn
     #[arg(long, value_name = "DATA")]
     pub times: Option<String>,
     /// Independent runs, each a track
-    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(long, value_name = "N", default_value = "1", value_parser = runs, allow_negative_numbers = true)]
     pub runs: u32,
     /// Seed of the random numbers: equal seeds draw equal data
-    #[arg(long, value_name = "S")]
+    #[arg(long, value_name = "S", value_parser = seed, allow_negative_numbers = true)]
     pub seed: u64,
     /// Where to write the measurements; standard output without it
     #[arg(long, short, value_name = "DATA")]
@@ -172,4 +174,25 @@ pub struct CheckArgs {
     pub model: ModelArgs,
     #[command(flatten)]
     pub method: MethodArgs,
+}
+
+/// A whole number.
+fn whole(text: &str) -> Result<usize, String> {
+    text.parse().map_err(|_| "must be a whole number, zero or above".to_owned())
+}
+
+/// A number of runs.
+fn runs(text: &str) -> Result<u32, String> {
+    let above_zero = text.parse().ok().filter(|&runs: &u32| runs > 0);
+    above_zero.ok_or_else(|| "must be a whole number above zero".to_owned())
+}
+
+/// A seed.
+fn seed(text: &str) -> Result<u64, String> {
+    text.parse().map_err(|_| "must be a whole number, zero or above".to_owned())
+}
+
+/// A number.
+fn number(text: &str) -> Result<f64, String> {
+    text.parse().map_err(|_| "must be a number".to_owned())
 }

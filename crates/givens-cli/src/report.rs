@@ -1,20 +1,26 @@
 //! What stderr says at the end: how much was done, how likely it was, how right; and what failed, by name.
 
-use crate::message::say;
+use crate::message::{count, say};
+use crate::method::title;
 use crate::plan::Plan;
 use crate::session::Session;
+use givens::Estimates;
 use givens::filter::{Fault, Matrix, Quantity, StepError};
 use givens::metrics::{Accuracy, Consistency};
 use givens_io::{Model, Row, Track};
 
 /// The closing lines of a run.
 pub fn closing(plan: &Plan, session: &Session) {
-    let rows: usize = session.estimates().map(givens::Estimates::len).sum();
+    let rows: usize = session.estimates().map(Estimates::len).sum();
     let tracks = plan.tracks.tracks.len();
-    let log_likelihood: f64 = session.estimates().map(givens::Estimates::total_log_likelihood).sum();
     let of = if tracks == 1 { String::new() } else { format!(" of {tracks} tracks") };
+    let (title, counted) = (title(&plan.choice), count(rows, "row"));
+    if rows == 0 {
+        say(&format!("{title}: no row{of} was finished"));
+        return;
+    }
     let consistency = Consistency::of(session.estimates());
-    say(&format!("{}: {rows} rows{of}, log-likelihood {log_likelihood:.3}, {consistency}", plan.choice.name));
+    say(&format!("{title}: {counted}{of}, log-likelihood {:.3}, {consistency}", session.log_likelihood()));
     if let Some(accuracy) = session.accuracy(plan) {
         for line in accuracy_lines(&plan.model, &accuracy) {
             say(&line);
@@ -33,8 +39,9 @@ fn accuracy_lines(model: &Model, accuracy: &Accuracy) -> Vec<String> {
         if accuracy.rows[i] > 0 {
             let percent = 100.0 * accuracy.coverage[i];
             lines.push(format!(
-                "  {name:width$} {:>12.5} {percent:>10.1} % {:>8}",
-                accuracy.rmse[i], accuracy.rows[i]
+                "  {name:width$} {:>12} {percent:>10.1} % {:>8}",
+                digits(accuracy.rmse[i]),
+                accuracy.rows[i]
             ));
         }
     }
@@ -50,16 +57,24 @@ fn accuracy_lines(model: &Model, accuracy: &Accuracy) -> Vec<String> {
     lines
 }
 
-/// Why and where a track failed, by the names of the model.
-pub fn failure(model: &Model, data: &str, track: &Track, row: &Row, error: &StepError) -> String {
+/// A number with five digits; a dash if it is none.
+pub fn digits(x: f64) -> String {
+    match x.abs() {
+        size if size.is_nan() => "-".to_owned(),
+        size if size != 0.0 && !(1e-3..1e6).contains(&size) => format!("{x:.4e}"),
+        size => format!("{x:.*}", (4 - size.max(1.0).log10().floor() as i32).max(0) as usize),
+    }
+}
+
+/// Where something failed: the row of a table, and the track and the time.
+pub fn place(data: &str, track: &Track, row: &Row, time: f64) -> String {
     let name = track.id.as_ref().map_or(String::new(), |id| format!("track {id}, "));
-    format!(
-        "{data}:{}: {name}t = {}, step {}: the filter failed: {}",
-        row.line,
-        track.time_text(error.time),
-        error.step,
-        fault(model, &error.fault)
-    )
+    format!("{data}:{}: {name}t = {}", row.line, track.time_text(time))
+}
+
+/// Why a step failed, by the names of the model; `what` was at work at `place`.
+pub fn failure(model: &Model, place: &str, what: &str, error: &StepError) -> String {
+    format!("{place}, step {}: the {what} failed: {}", error.step, fault(model, &error.fault))
 }
 
 /// A fault with the model's own names.

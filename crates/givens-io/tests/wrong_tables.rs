@@ -63,8 +63,8 @@ fn a_wrong_header_is_told() {
     check(
         &model(),
         &[
-            ("", (0, 0), "the file is empty", "the first line names the columns"),
-            (" \n\n", (0, 0), "the file is empty", ""),
+            ("", (0, 0), "the table is empty", "the first line names the columns"),
+            (" \n\n", (0, 0), "the table is empty", ""),
             ("time,u_a,px\n", (0, 0), "a header but no rows", "one measurement"),
             ("Time,u_a,px\n1,2,3\n", (1, 1), "the table has no column `time`", "rename `Time` to `time`"),
             ("t,u_a,px\n1,2,3\n", (1, 1), "the table has no column `time`", "the table has `t`, `u_a`, `px`"),

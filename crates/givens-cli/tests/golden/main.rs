@@ -1,4 +1,5 @@
 //! Every golden scenario through the command: all rules, in both forms, as a filter and as each smoother.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 #[path = "../common/mod.rs"]
 mod common;
@@ -39,6 +40,7 @@ scenarios!(
     innovation_fails,
     posterior_fails,
     predicted_fails,
+    conditional_fails,
 );
 
 #[test]

@@ -3,8 +3,8 @@
 use super::common::{Folder, Run, golden, golden_json};
 use super::compare::{Expected, number_error};
 use super::{FORMS, arguments, run, set};
+use core::fmt::Write;
 use serde_json::Value;
-use std::fmt::Write;
 
 /// A scenario, and what was found wrong with it.
 pub struct Scenario {
@@ -76,7 +76,7 @@ impl Scenario {
         let point = self.run(case, "smooth", &["--point", &start]);
         let last: Vec<Value> = point.objects().pop().into_iter().collect();
         let (mean, cov) = (&case.golden["start_mean"], &case.golden["start_cov"]);
-        self.compare(case, "start", &last, &[mean.clone()], &[cov.clone()]);
+        self.compare(case, "start", &last, core::slice::from_ref(mean), core::slice::from_ref(cov));
         if !case.golden["lag5"].is_null() {
             let lag = self.run(case, "smooth", &["--lag", "5"]);
             self.series(case, &lag, "lag 5", &case.golden["lag5"]["mean"], &case.golden["lag5"]["cov"]);

@@ -4,7 +4,7 @@ use super::Health;
 use super::rest::{errors_above, norm};
 use crate::scalar::{Mask, Real};
 
-/// L with L Lᵀ − v vᵀ in place of L Lᵀ, L lower triangular n × n in rows of length `stride` (`docs/algorithms.md` K5).
+/// L with L Lᵀ − v vᵀ in place of L Lᵀ, L lower triangular n × n in rows of length `stride` (docs/algorithms.md §2).
 ///
 /// `v` (length n) is used up, and the triangle above the diagonal, which must be zero, stays so. The square of pivot k
 /// is r² = L_kk² − v_k², known to τ = e max(L_kk, |v_k|), where e is 64 ε ‖row k‖ and what the errors of the rows

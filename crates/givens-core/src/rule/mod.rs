@@ -1,4 +1,4 @@
-//! Rules: how the moments of g(x), x ~ N(m, S Sᵀ), are computed (`docs/algorithms.md` R1).
+//! Rules: how the moments of g(x), x ~ N(m, S Sᵀ), are computed (docs/algorithms.md §3).
 //!
 //! Every rule answers with a [`Spread`]: the mean of g, the part D of its spread that moves with S, and the rest E,
 //! so that cov(g) = D Dᵀ + E J Eᵀ and cov(x, g) = S Dᵀ, J the signs of the rest's columns. For a rule of points, D is

@@ -92,7 +92,8 @@ struct Block<'a> {
 
 impl Serialize for Block<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let row = |i: &usize| -> Vec<f64> { self.keep.iter().map(|j| self.matrix[i * self.size + j]).collect() };
+        let row =
+            |i: &usize| -> Vec<f64> { self.keep.iter().map(|j| self.matrix[i * self.size + j]).collect() };
         serializer.collect_seq(self.keep.iter().map(row))
     }
 }

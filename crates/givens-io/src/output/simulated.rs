@@ -10,8 +10,12 @@ use crate::model_file::Model;
 /// The drawn trajectory of one run.
 #[derive(Clone, Debug)]
 pub struct Drawn {
-    /// Its name among the runs, if there are several.
+    /// Its number among the runs: all rows of one run come before those of the next.
+    pub run: u32,
+    /// Its name among the tracks, if there are several.
     pub track: Option<String>,
+    /// The place of each row among those of all tracks of its run.
+    pub index: Vec<usize>,
     /// Its times as they are to be written.
     pub time_text: Vec<String>,
     /// The sensor that each row names, if rows do.
@@ -87,14 +91,15 @@ fn rows(
     let mut table = csv::Writer::from_writer(out);
     table.write_record(header).map_err(told)?;
     let mut cells = Vec::with_capacity(header.len());
-    for run in runs {
-        for k in 0..run.simulation.time.len() {
-            cells.clear();
-            cells.push(run.time_text[k].clone());
-            cells.extend(run.track.clone());
-            write(run, k, &mut cells);
-            table.write_record(&cells).map_err(told)?;
-        }
+    let mut order: Vec<(&Drawn, usize)> =
+        runs.iter().flat_map(|run| (0..run.simulation.time.len()).map(move |k| (run, k))).collect();
+    order.sort_by_key(|&(run, k)| (run.run, run.index[k]));
+    for (run, k) in order {
+        cells.clear();
+        cells.push(run.time_text[k].clone());
+        cells.extend(run.track.clone());
+        write(run, k, &mut cells);
+        table.write_record(&cells).map_err(told)?;
     }
     table.flush()
 }

@@ -119,7 +119,7 @@ pub(crate) const fn accumulate_scratch(n: usize) -> usize {
     3 * n * n
 }
 
-/// Chains a later step onto an earlier one (`docs/algorithms.md` S3): D ← Tria([D  Γ D']), Γ ← Γ G'.
+/// Chains a later step onto an earlier one (docs/algorithms.md S3): D ← Tria([D  Γ D']), Γ ← Γ G'.
 ///
 /// Both hold n × n matrices; the conditional roots are empty in covariance form. `scratch` holds 3 n² scalars.
 #[inline(always)]

@@ -97,12 +97,6 @@ fn wrong_methods_and_options() {
                 "filter model.toml data.csv -o out.csv --method cdkf --set eta=0.9",
                 &["--set eta=0.9: must be"],
             ),
-            (
-                "number",
-                NONE,
-                "filter model.toml data.csv -o out.csv --set kappa=two",
-                &["kappa = two: must be a number"],
-            ),
         ],
     );
 }
@@ -112,6 +106,12 @@ fn wrong_parameters_and_lists() {
     check(
         "parameters",
         &[
+            (
+                "number",
+                NONE,
+                "filter model.toml data.csv -o out.csv --set kappa=two",
+                &["kappa = two: must be a number"],
+            ),
             (
                 "param",
                 NONE,

@@ -3,6 +3,11 @@
 pub mod ill_conditioned;
 pub mod scenario;
 
+// the examples of the README run with those of the documentation
+#[cfg(doctest)]
+#[doc = include_str!("../../README.md")]
+mod readme {}
+
 use serde_json::Value;
 use std::path::PathBuf;
 

@@ -40,14 +40,15 @@ pub fn downdate<T: Real>(l: &mut [T], n: usize, stride: usize, v: &mut [T]) -> H
         let r = T::select(cleared, zero, T::select(untouched, pivot, r2.sqrt()));
         let c = T::select(still, one, r / pivot);
         let s = T::select(still, zero, vk / pivot);
+        let side = one.copysign(vk);
         l[k * stride + k] = r;
         for i in k + 1..n {
             let below = l[i * stride + k];
-            // a zero square of the pivot forces a zero column: what is left of it must be within its rounding
-            let left = below.abs() - v[i].abs();
+            // a zero square of the pivot forces a zero column: |A_ik|² ≤ A_kk A_ii, A_kk = r² and A_ik = L_kk · left
+            let left = (below - side * v[i]).abs();
             let row_norm = l[i * stride..=i * stride + i].iter().fold(v[i].abs(), |m, &x| m.max(x.abs()));
-            let allowed = (rounding * size).sqrt() * (row_norm + row_norm);
-            health.note(spent & !left.abs().le(allowed), k);
+            let allowed = (rounding / size).sqrt() * (row_norm + row_norm);
+            health.note(spent & !left.le(allowed), k);
             let x = (below - s * v[i]) / c;
             v[i] = T::select(spent, zero, c * v[i] - s * x);
             l[i * stride + k] = T::select(cleared, zero, x);
@@ -65,5 +66,24 @@ mod tests {
         let mut v = [0.0, 1.0];
         assert!(super::downdate(&mut l, 2, 2, &mut v).failed().is_none());
         assert!((l[3] - 3.0f64.sqrt()).abs() < 1e-15);
+    }
+    #[test]
+    fn a_column_that_does_not_cancel_is_a_failure_whatever_its_sign() {
+        // [1 1; 1 2] − [1 −1; −1 1] = [0 2; 2 1]
+        assert_eq!(super::downdate(&mut [1.0, 0.0, 1.0, 1.0], 2, 2, &mut [1.0, -1.0]).failed(), Some(0));
+        let mut l = [1.0, 0.0, -1.0, 1.0];
+        assert!(super::downdate(&mut l, 2, 2, &mut [-1.0, 1.0]).failed().is_none());
+        assert_eq!(l, [0.0, 0.0, 0.0, 1.0]);
+    }
+
+    #[test]
+    fn units_do_not_decide_what_is_zero() {
+        for unit in [1e-9, 1.0, 1e9] {
+            let fails = |left: f64| {
+                let mut v = [unit, unit * (1.0 - left)];
+                super::downdate(&mut [unit, 0.0, unit, unit], 2, 2, &mut v).failed().is_some()
+            };
+            assert!(!fails(1e-8) && fails(1e-5), "{unit}");
+        }
     }
 }

@@ -23,24 +23,25 @@ pub enum Command {
     /// Estimate each state from the measurements up to it
     #[command(after_help = "Examples:
   givens filter turn.toml radar.csv -o track.csv --plot track.svg
-  givens filter turn.toml radar.csv --method sr-ukf --set kappa=1 --format jsonl | head -1
+  givens filter turn.toml radar.csv --method ukf --set kappa=1 --format jsonl
   givens filter turn.toml - --truth truth.csv < radar.csv > track.csv")]
     Filter(FilterArgs),
     /// Estimate each state from all measurements, before and after it
     #[command(after_help = "Examples:
   givens smooth turn.toml radar.csv -o track.csv --plot track.png
-  givens smooth turn.toml radar.csv --lag 5          each row with the next five rows
-  givens smooth turn.toml radar.csv --point 0        the state at t = 0, better known with every row")]
+  givens smooth turn.toml radar.csv --lag 5      each row with the next five
+  givens smooth turn.toml radar.csv --point 0    the state at t = 0, row by row")]
     Smooth(SmoothArgs),
     /// Draw trajectories and measurements from a model
     #[command(after_help = "Examples:
   givens simulate turn.toml --steps 100 --seed 1 -o radar.csv --states truth.csv
-  givens simulate turn.toml --until 60 --every 0.5 --runs 250 --seed 7 -o runs.csv
-  givens simulate turn.toml --times radar.csv --seed 1    the rows, sensors and gaps of a table")]
+  givens simulate turn.toml --until 60 --every 0.5 --runs 9 --seed 7 -o runs.csv
+  givens simulate turn.toml --times radar.csv --seed 1    the rows of a table")]
     Simulate(SimulateArgs),
     /// Run several methods over the same data, side by side
-    #[command(after_help = "Example:
-  givens compare turn.toml radar.csv --methods ekf,sr-ukf,sr-ckf --set sr-ukf.kappa=0 --truth truth.csv")]
+    #[command(after_help = "Examples:
+  givens compare turn.toml radar.csv --methods ekf,sr-ukf,ckf --truth truth.csv
+  givens compare turn.toml radar.csv --methods ukf,ckf --set ukf.kappa=1")]
     Compare(CompareArgs),
     /// List the methods, their parts and their options
     #[command(after_help = "Example:\n  givens methods | grep unscented")]

@@ -17,7 +17,7 @@ pub fn check(inputs: &[(&str, Option<&str>)], outputs: &[(&str, Option<&Path>)])
         return Err(Stop::input(message).help("write one of them to a file"));
     }
     for (k, (role, path)) in outputs.iter().enumerate() {
-        let Some(place) = place(path) else { continue };
+        let Some(place) = place(path).filter(|_| !is_standard(path)) else { continue };
         let read = inputs.iter().map(|&(role, path)| (role, Path::new(path)));
         let mut others = read.chain(outputs[..k].iter().copied());
         if let Some((other, _)) = others.find(|(_, other)| self::place(other).as_ref() == Some(&place)) {
@@ -26,6 +26,11 @@ pub fn check(inputs: &[(&str, Option<&str>)], outputs: &[(&str, Option<&Path>)])
         }
     }
     Ok(())
+}
+
+/// Whether a path stands for standard output.
+fn is_standard(path: &Path) -> bool {
+    path.as_os_str() == "-"
 }
 
 /// Where a file lies, or would lie; none for devices and what cannot lie anywhere.
@@ -46,7 +51,7 @@ pub enum Sink {
 impl Sink {
     /// Opens a file, or standard output for `-` and for none.
     pub fn open(path: Option<&Path>) -> Result<Self, Stop> {
-        match path.filter(|path| path.as_os_str() != "-") {
+        match path.filter(|path| !is_standard(path)) {
             None => Ok(Self::Stdout),
             Some(path) => match Destination::create(path) {
                 Ok(file) => Ok(Self::File(file)),

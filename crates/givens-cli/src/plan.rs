@@ -29,23 +29,24 @@ impl Plan {
 
     pub fn with(model: Model, choice: Choice, data: &str, truth: Option<&str>) -> Result<Self, Stop> {
         let tracks = read_tracks(data, &model)?;
-        let data = if data == "-" { "standard input" } else { data };
         ignored(data, &tracks.ignored);
+        let data = source_name(data);
         let beginnings = tracks.tracks.iter().map(|track| {
             let name = track.id.as_ref().map_or(String::new(), |id| format!(" track {id}:"));
             model.begin(track).map_err(|error| Stop::input(format!("{data}:{name} {error}")))
         });
         let beginnings = beginnings.collect::<Result<_, _>>()?;
         let truth = match truth {
-            Some(path) => Some(read_truth(path, &model, &tracks)?),
+            Some(path) => {
+                let truth = read_truth(path, &model, &tracks)?;
+                ignored(path, &truth.ignored);
+                Some(truth)
+            }
             None => None,
         };
         let mut truth_rows = vec![Vec::new(); tracks.tracks.len()];
         for (row, &track) in truth.iter().flat_map(|truth| truth.tracks.iter().enumerate()) {
             truth_rows[track].push(row);
-        }
-        if let Some(truth) = &truth {
-            ignored("--truth", &truth.ignored);
         }
         Ok(Self { model, data: data.to_owned(), tracks, beginnings, choice, truth, truth_rows })
     }
@@ -75,8 +76,14 @@ impl Plan {
     }
 }
 
+/// A file as messages call it.
+pub fn source_name(path: &str) -> &str {
+    if path == "-" { "standard input" } else { path }
+}
+
 /// Names columns that were not read.
 pub fn ignored(file: &str, columns: &[String]) {
+    let file = source_name(file);
     if !columns.is_empty() {
         let plural = if columns.len() == 1 { "" } else { "s" };
         say(&format!("{file}: column{plural} not used by the model: {}", columns.join(", ")));

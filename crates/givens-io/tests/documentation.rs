@@ -37,7 +37,7 @@ fn the_small_model_reads_the_small_table() {
     let model = read(&blocks(&page, "toml")[0], "small.toml");
     let tracks = parse_tracks(&blocks(&page, "csv")[0], "small.csv", &model).unwrap();
     let rows = &tracks.tracks[0].rows;
-    assert_eq!(rows.iter().map(|row| row.measured()).collect::<Vec<_>>(), [true, true, false]);
+    assert_eq!(rows.iter().map(givens_io::Row::measured).collect::<Vec<_>>(), [true, true, false]);
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use crate::args::SimulateArgs;
 use crate::files::{self, Sink};
 use crate::message::Stop;
-use crate::plan::{ignored, model};
+use crate::plan::{ignored, model, source_name};
 use crate::report;
 use crate::timetable::regular;
 use givens::Row;
@@ -56,7 +56,7 @@ fn prior(model: &Model) -> Result<Gaussian, Stop> {
 fn tracks(model: &Model, args: &SimulateArgs) -> Result<Tracks, Stop> {
     let Some(path) = &args.times else { return regular(model, args) };
     let tracks = read_times(path, model)?;
-    ignored("--times", &tracks.ignored);
+    ignored(path, &tracks.ignored);
     if args.runs > 1 && tracks.has_track_id {
         let stop = Stop::input(format!("--runs {}: the table of --times has tracks of its own", args.runs));
         return Err(stop.help("leave --runs out, or remove its column `track_id`"));
@@ -91,10 +91,7 @@ fn failure(model: &Model, args: &SimulateArgs, track: &Track, run: u32, error: &
     let which = if args.runs > 1 { format!("run {run}, ") } else { String::new() };
     let row = track.rows.get(error.step).or(track.rows.last());
     let place = match (&args.times, row) {
-        (Some(path), Some(row)) => {
-            let path = if path == "-" { "standard input" } else { path };
-            report::place(path, track, row, error.time)
-        }
+        (Some(path), Some(row)) => report::place(source_name(path), track, row, error.time),
         _ => format!("{}: t = {}", model.file, track.time_text(error.time)),
     };
     report::failure(model, &format!("{which}{place}"), "simulation", error)

@@ -87,7 +87,7 @@ fn parts_of_the_file_give_way_to_a_named_method() {
     assert!(of_file.stderr.contains("ukf, rule taylor, form square-root: 5 rows"), "{}", of_file.stderr);
     let named = folder.run("filter model.toml data.csv --method sr-ckf").good();
     assert!(
-        named.stderr.contains("model.toml:36: `rule` of [filter] does not go with sr-ckf"),
+        named.stderr.contains("model.toml:35: `rule` of [filter] does not go with sr-ckf"),
         "{}",
         named.stderr
     );

@@ -80,8 +80,7 @@ fn numbers_read_back_exactly_in_both_formats() {
 #[test]
 fn small_and_large_numbers_read_back_exactly() {
     let folder = folder("sizes");
-    let model =
-        super::WALK.replace("mean = [0]", "mean = [1.2345678901234567e-300]").replace("[2]", "[3e-160]");
+    let model = super::WALK.replace("mean = [0]", "mean = [1.2345678901234567e-300]").replace("[2]", "[0]");
     folder.write("walk.toml", &model.replace("[[\"dt\"]]", "[[\"1e300*dt\"]]"));
     folder.write("data.csv", "time,z\n0,\n1,\n");
     let found = folder.run("filter walk.toml data.csv").good().cells();

@@ -35,7 +35,7 @@ fn gaps_sensors_and_tracks_are_kept_in_the_tables_order() {
     }
     let truth = cells(&folder.read("truth.csv"));
     let keys: Vec<String> = truth[1..].iter().map(|row| row[..2].join("")).collect();
-    assert_eq!(keys, ["0.5b", "0.5a", "0.5b", "3.25a", "7b"]);
+    assert_eq!(keys, ["0.5b", "0.5a", "3.25a", "7b"]);
 }
 
 #[test]
@@ -57,8 +57,9 @@ fn a_table_of_times_alone_draws_all_measures() {
 #[test]
 fn controls_and_calendar_times_are_kept() {
     let folder = folder("controls");
-    let model =
-        WALK.replace("[\"x\"]\n", "[\"x + u_a\"]\n").replace("time = 0", "time = \"2026-03-01T12:00:00Z\"");
+    let model = WALK
+        .replace("transition = [\"x\"]", "transition = [\"x + u_a\"]")
+        .replace("time = 0", "time = \"2026-03-01T12:00:00Z\"");
     let model = model.replace("std = [2]", "std = [0]").replace("\"dt\"", "0");
     folder.write("walk.toml", &model);
     let times = "time,u_a\n2026-03-01T12:00:01Z,10\n2026-03-01T13:00:03+01:00,100\n";

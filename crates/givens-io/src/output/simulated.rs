@@ -38,19 +38,25 @@ pub fn write_measurements(out: &mut dyn Write, model: &Model, runs: &[Drawn]) ->
     header.extend(columns.iter().map(|(name, _)| name.clone()));
     header.extend(model.controls.iter().cloned());
     let d = model.measures();
-    rows(out, &header, runs, |run, k, cells| {
-        let sensor = run.sensor.get(k).copied().flatten().and_then(|i| model.sensors.get(i));
-        cells.extend(has_sensor.then(|| sensor.map_or(String::new(), |sensor| sensor.name.clone())));
-        let z = &run.simulation.z[k * d..(k + 1) * d];
-        for (_, stack) in &columns {
-            let there = stack.iter().map(|&i| z[i]).find(|z: &f64| !z.is_nan());
-            cells.push(there.map_or(String::new(), digits));
-        }
-        cells.extend(run.controls[k].iter().map(|&x| digits(x)));
-    })
+    rows(
+        out,
+        &header,
+        runs,
+        |_, _| true,
+        |run, k, cells| {
+            let sensor = run.sensor.get(k).copied().flatten().and_then(|i| model.sensors.get(i));
+            cells.extend(has_sensor.then(|| sensor.map_or(String::new(), |sensor| sensor.name.clone())));
+            let z = &run.simulation.z[k * d..(k + 1) * d];
+            for (_, stack) in &columns {
+                let there = stack.iter().map(|&i| z[i]).find(|z: &f64| !z.is_nan());
+                cells.push(there.map_or(String::new(), digits));
+            }
+            cells.extend(run.controls[k].iter().map(|&x| digits(x)));
+        },
+    )
 }
 
-/// Writes `time[,track_id],<state>…`.
+/// Writes `time[,track_id],<state>…`, one row for each time of a track.
 ///
 /// # Errors
 /// What the writer says.
@@ -58,7 +64,9 @@ pub fn write_states(out: &mut dyn Write, model: &Model, runs: &[Drawn]) -> io::R
     let n = model.states.len();
     let mut header = keys(runs);
     header.extend(model.states.iter().cloned());
-    rows(out, &header, runs, |run, k, cells| {
+    // rows at one time have one state
+    let first = |run: &Drawn, k: usize| k == 0 || run.simulation.time[k] > run.simulation.time[k - 1];
+    rows(out, &header, runs, first, |run, k, cells| {
         cells.extend(run.simulation.states[k * n..(k + 1) * n].iter().map(|&x| digits(x)));
     })
 }
@@ -86,6 +94,7 @@ fn rows(
     out: &mut dyn Write,
     header: &[String],
     runs: &[Drawn],
+    keep: impl Fn(&Drawn, usize) -> bool,
     write: impl Fn(&Drawn, usize, &mut Vec<String>),
 ) -> io::Result<()> {
     let mut table = csv::Writer::from_writer(out);
@@ -94,7 +103,7 @@ fn rows(
     let mut order: Vec<(&Drawn, usize)> =
         runs.iter().flat_map(|run| (0..run.simulation.time.len()).map(move |k| (run, k))).collect();
     order.sort_by_key(|&(run, k)| (run.run, run.index[k]));
-    for (run, k) in order {
+    for (run, k) in order.into_iter().filter(|&(run, k)| keep(run, k)) {
         cells.clear();
         cells.push(run.time_text[k].clone());
         cells.extend(run.track.clone());

@@ -32,8 +32,11 @@ impl Plan {
         ignored(data, &tracks.ignored);
         let data = source_name(data);
         let beginnings = tracks.tracks.iter().map(|track| {
-            let name = track.id.as_ref().map_or(String::new(), |id| format!(" track {id}:"));
-            model.begin(track).map_err(|error| Stop::input(format!("{data}:{name} {error}")))
+            model.begin(track).map_err(|error| {
+                let line = error.line.map_or(String::new(), |line| format!("{line}:"));
+                let name = track.id.as_ref().map_or(String::new(), |id| format!("track {id}: "));
+                Stop::input(format!("{data}:{line} {name}{}", error.message)).help(error.help)
+            })
         });
         let beginnings = beginnings.collect::<Result<_, _>>()?;
         let truth = match truth {

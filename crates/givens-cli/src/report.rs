@@ -7,6 +7,7 @@ use crate::session::Session;
 use givens::Estimates;
 use givens::filter::{Fault, Matrix, Quantity, StepError};
 use givens::metrics::{Accuracy, Consistency};
+use givens::registry::FormName;
 use givens_io::{Model, Row, Track};
 
 /// The closing lines of a run.
@@ -62,7 +63,8 @@ pub fn digits(x: f64) -> String {
     match x.abs() {
         size if size.is_nan() => "-".to_owned(),
         size if size != 0.0 && !(1e-3..1e6).contains(&size) => format!("{x:.4e}"),
-        size => format!("{x:.*}", (4 - size.max(1.0).log10().floor() as i32).max(0) as usize),
+        0.0 => "0".to_owned(),
+        size => format!("{x:.*}", (4 - size.log10().floor() as i32).max(0) as usize),
     }
 }
 
@@ -72,13 +74,13 @@ pub fn place(data: &str, track: &Track, row: &Row, time: f64) -> String {
     format!("{data}:{}: {name}t = {}", row.line, track.time_text(time))
 }
 
-/// Why a step failed, by the names of the model; `what` was at work at `place`.
-pub fn failure(model: &Model, place: &str, what: &str, error: &StepError) -> String {
-    format!("{place}, step {}: the {what} failed: {}", error.step, fault(model, &error.fault))
+/// Why a step failed, by the names of the model; `what` was at work at `place`, in this form if it has one.
+pub fn failure(model: &Model, place: &str, what: &str, form: Option<FormName>, error: &StepError) -> String {
+    format!("{place}, step {}: the {what} failed: {}", error.step, fault(model, form, &error.fault))
 }
 
 /// A fault with the model's own names.
-fn fault(model: &Model, fault: &Fault) -> String {
+fn fault(model: &Model, form: Option<FormName>, fault: &Fault) -> String {
     let state =
         |i: usize| model.states.get(i).map_or_else(|| (i + 1).to_string(), |name| format!("`{name}`"));
     let columns: Vec<&String> = model.sensors.iter().flat_map(|sensor| &sensor.columns).collect();
@@ -89,7 +91,7 @@ fn fault(model: &Model, fault: &Fault) -> String {
                 Matrix::Innovation | Matrix::MeasurementNoise => ("measure", measure(pivot)),
                 _ => ("state", state(pivot)),
             };
-            let remedy = remedy(matrix);
+            let remedy = remedy(matrix, form);
             format!(
                 "the {} is not positive definite at pivot {} ({kind} {name}); {remedy}",
                 matrix.name(),
@@ -104,10 +106,10 @@ fn fault(model: &Model, fault: &Fault) -> String {
         ),
         Fault::NotFinite { quantity, component } => match quantity {
             Quantity::Transition | Quantity::Estimate | Quantity::ProcessNoise => {
-                format!("the {} of {} is not a finite number", quantity.name(), state(component))
+                format!("the {} of {} is not a finite number; {DOMAIN}", quantity.name(), state(component))
             }
             Quantity::Observation | Quantity::MeasurementNoise | Quantity::Measurement => {
-                format!("the {} {} is not a finite number", quantity.name(), measure(component))
+                format!("the {} {} is not a finite number; {DOMAIN}", quantity.name(), measure(component))
             }
             _ => fault.to_string(),
         },
@@ -115,11 +117,21 @@ fn fault(model: &Model, fault: &Fault) -> String {
     }
 }
 
+/// Where numbers that are none come from.
+const DOMAIN: &str =
+    "look for a division by zero, the root of a negative number, or an estimate that runs away";
+
 /// The way out of a covariance that does not exist.
-fn remedy(matrix: Matrix) -> &'static str {
-    match matrix {
-        Matrix::ProcessNoise | Matrix::MeasurementNoise => "check its expressions at this time",
-        Matrix::Prior => "check the initial covariance",
-        _ => "try a square-root method, a rule without negative weights (sr-ckf), or more noise",
+fn remedy(matrix: Matrix, form: Option<FormName>) -> &'static str {
+    match (matrix, form) {
+        (Matrix::ProcessNoise | Matrix::MeasurementNoise, _) => "check its expressions at this time",
+        (Matrix::Prior, _) => "check the initial covariance",
+        (Matrix::Conditional, _) => {
+            "smooth in covariance form (--set form=covariance), or by a rule without negative weights (sr-ckf)"
+        }
+        (_, Some(FormName::Covariance)) => {
+            "try the square-root form (--set form=square-root), a rule without negative weights (ckf), or more noise"
+        }
+        _ => "try a rule without negative weights (sr-ckf), or more noise",
     }
 }

@@ -39,7 +39,7 @@ impl Session {
                 let at = &track.rows[begin.row + row];
                 let place = report::place(&plan.data, track, at, error.time);
                 let what = if *goal == Goal::Filter { "filter" } else { "smoother" };
-                let told = report::failure(&plan.model, &place, what, error);
+                let told = report::failure(&plan.model, &place, what, Some(choice.form), error);
                 let finished = match outcome.estimates.len() {
                     0 => "no row".to_owned(),
                     rows => count(rows, "row"),

@@ -25,10 +25,7 @@ pub fn regular(model: &Model, args: &SimulateArgs) -> Result<Tracks, Stop> {
     let sensors: Vec<Option<usize>> =
         if apart { (0..model.sensors.len()).map(Some).collect() } else { vec![None] };
     let rows = (last + 1.0 - first as f64) * sensors.len() as f64 * f64::from(args.runs);
-    if rows > MOST_ROWS {
-        let stop = Stop::input(format!("this would draw {rows:.0} rows, more than {MOST_ROWS:.0}"));
-        return Err(stop.help("ask for fewer steps or runs, or for several files with a seed each"));
-    }
+    bounded(rows)?;
     for k in first..=last as usize {
         let (time, time_text) = moment(&track, track.start + k as f64 * every);
         for &sensor in &sensors {
@@ -40,6 +37,16 @@ pub fn regular(model: &Model, args: &SimulateArgs) -> Result<Tracks, Stop> {
         }
     }
     Ok(Tracks { tracks: vec![track], ignored: vec![], has_track_id: false, has_sensor: apart })
+}
+
+/// Refuses more rows than fit into memory.
+pub fn bounded(rows: f64) -> Result<(), Stop> {
+    if rows <= MOST_ROWS {
+        return Ok(());
+    }
+    let rows = if rows < 1e15 { format!("{rows:.0}") } else { format!("{rows:.1e}") };
+    let stop = Stop::input(format!("this would draw {rows} rows, more than {MOST_ROWS:.0}"));
+    Err(stop.help("ask for fewer steps or runs, or for several files with a seed each"))
 }
 
 /// The time between two rows.

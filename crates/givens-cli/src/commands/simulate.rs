@@ -5,7 +5,7 @@ use crate::files::{self, Sink};
 use crate::message::Stop;
 use crate::plan::{ignored, model, source_name};
 use crate::report;
-use crate::timetable::regular;
+use crate::timetable::{bounded, regular};
 use givens::Row;
 use givens::filter::{Gaussian, StepError};
 use givens::simulate::{Stream, simulate as draw};
@@ -61,6 +61,8 @@ fn tracks(model: &Model, args: &SimulateArgs) -> Result<Tracks, Stop> {
         let stop = Stop::input(format!("--runs {}: the table of --times has tracks of its own", args.runs));
         return Err(stop.help("leave --runs out, or remove its column `track_id`"));
     }
+    let rows: usize = tracks.tracks.iter().map(|track| track.rows.len()).sum();
+    bounded(rows as f64 * f64::from(args.runs))?;
     Ok(tracks)
 }
 
@@ -94,5 +96,5 @@ fn failure(model: &Model, args: &SimulateArgs, track: &Track, run: u32, error: &
         (Some(path), Some(row)) => report::place(source_name(path), track, row, error.time),
         _ => format!("{}: t = {}", model.file, track.time_text(error.time)),
     };
-    report::failure(model, &format!("{which}{place}"), "simulation", error)
+    report::failure(model, &format!("{which}{place}"), "simulation", None, error)
 }

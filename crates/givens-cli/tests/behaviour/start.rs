@@ -82,3 +82,17 @@ fn a_point_at_the_start_is_smoothed_from_there() {
     let (a, b) = (numbers(&rows[1]["mean"]), numbers(&interval[2]["mean"]));
     assert!(a.iter().zip(&b).all(|(a, b)| (a - b).abs() < 1e-9), "{a:?} {b:?}");
 }
+
+#[test]
+fn a_start_that_finds_no_number_is_told_with_its_row() {
+    let folder = folder("start_domain");
+    folder.write("model.toml", &model().replace("2*px + py", "sqrt(px)"));
+    folder.write("data.csv", "time,track_id,px,py\n1,a,4,20\n1,b,-4,20\n");
+    let found = folder.run("filter model.toml data.csv -o out.csv");
+    assert_eq!((found.code, folder.files().contains(&"out.csv".to_owned())), (2, false));
+    assert!(
+        found.stderr.contains("data.csv:3: track b: `start` finds no finite `x` from this row"),
+        "{}",
+        found.stderr
+    );
+}

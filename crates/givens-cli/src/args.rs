@@ -91,11 +91,11 @@ pub enum FormatArg {
 pub struct FilterArgs {
     #[command(flatten)]
     pub model: ModelArgs,
-    /// Table of measurements (CSV), `-` for standard input
+    /// Table of measurements (CSV: time, measures; sensor, track_id, u_… if any), `-` for standard input
     pub data: String,
     #[command(flatten)]
     pub method: MethodArgs,
-    /// True states (CSV: time and states), for RMSE, NEES and coverage
+    /// True states (CSV: time, states; track_id if any), for RMSE, NEES and coverage
     #[arg(long, value_name = "FILE")]
     pub truth: Option<String>,
     /// Where to write; standard output without it
@@ -156,7 +156,7 @@ pub struct SimulateArgs {
 pub struct CompareArgs {
     #[command(flatten)]
     pub model: ModelArgs,
-    /// Table of measurements (CSV), `-` for standard input
+    /// Table of measurements (CSV: time, measures; sensor, track_id, u_… if any), `-` for standard input
     pub data: String,
     /// Methods, with commas between
     #[arg(long, value_name = "A,B,…", value_delimiter = ',', required = true)]
@@ -164,7 +164,7 @@ pub struct CompareArgs {
     /// A part or an option, of all methods or of one
     #[arg(long = "set", value_name = "[METHOD.]KEY=VALUE")]
     pub settings: Vec<String>,
-    /// True states (CSV: time and states), for RMSE, NEES and coverage
+    /// True states (CSV: time, states; track_id if any), for RMSE, NEES and coverage
     #[arg(long, value_name = "FILE")]
     pub truth: Option<String>,
 }

@@ -52,6 +52,10 @@ pub fn pair<'a>(option: &str, text: &'a str) -> Result<(&'a str, &'a str), Stop>
 /// One setting of the command line.
 pub fn setting(text: &str) -> Result<Typed, Stop> {
     let (key, value) = pair("--set", text)?;
+    if key == "method" {
+        let stop = Stop::input(format!("--set {text}: the method is no option of itself"));
+        return Err(stop.help(format!("write --method {value}, or --methods {value},… to compare")));
+    }
     Ok(Typed { text: text.to_owned(), setting: Setting { key: key.to_owned(), value: Value::from(value) } })
 }
 
@@ -75,14 +79,22 @@ pub fn choose(model: &Model, named: Option<Named>, own: &[Typed]) -> Result<Choi
                 (None, None) => Source::Line("the default".to_owned()),
                 (Some(named), _) => Source::Line(format!("{} {}", named.option, named.name)),
             };
-            return Err(refused(&error, &source));
+            return Err(refused(&error, &error.message, &source));
         };
         match (&settings[at], named) {
             ((setting, Source::File(location)), Some(_)) if error.unread => {
                 say(&dropped(location, &setting.key, method));
                 settings.remove(at);
             }
-            ((_, source), _) => return Err(refused(&error, source)),
+            ((setting, source), _) => {
+                // where it was typed, the setting stands before the message already
+                let own = format!("{} = {}: ", setting.key, setting.value);
+                let message = match source {
+                    Source::Line(_) => error.message.strip_prefix(&own).unwrap_or(&error.message),
+                    Source::File(_) => &error.message,
+                };
+                return Err(refused(&error, message, source));
+            }
         }
     }
 }
@@ -136,15 +148,15 @@ fn dropped(location: &Location, key: &str, method: &str) -> String {
 }
 
 /// A refusal at its place: in the file, or in an option of the command line.
-fn refused(error: &SettingError, source: &Source) -> Stop {
+fn refused(error: &SettingError, message: &str, source: &Source) -> Stop {
     let nearest = |(word, known): &(String, Vec<&'static str>)| match suggest(word, known.iter().copied()) {
         Some(near) => format!("did you mean `{near}`?"),
         None => format!("one of: {}", known.join(", ")),
     };
     let help = error.help.clone().or_else(|| error.unknown.as_ref().map(nearest));
     let stop = match source {
-        Source::File(location) => Stop::input(location.error(&error.message).to_string()),
-        Source::Line(typed) => Stop::input(format!("{typed}: {}", error.message)),
+        Source::File(location) => Stop::input(location.error(message).to_string()),
+        Source::Line(typed) => Stop::input(format!("{typed}: {message}")),
     };
     match help {
         Some(help) => stop.help(help),

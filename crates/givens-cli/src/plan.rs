@@ -6,6 +6,7 @@ use crate::method::{chosen, pair};
 use givens::Goal;
 use givens::registry::Choice;
 use givens_io::{Beginning, Model, Track, Tracks, Truth, read_tracks, read_truth};
+use std::path::Path;
 
 /// Everything that a run over data needs, read and checked.
 pub struct Plan {
@@ -22,7 +23,13 @@ pub struct Plan {
 
 impl Plan {
     pub fn new(args: &FilterArgs) -> Result<Self, Stop> {
-        let model = model(&args.model)?;
+        let model = model(&args.model).map_err(|stop| {
+            if is_toml(&args.data) && !is_toml(&args.model.model) {
+                stop.help("the model comes first, then the data")
+            } else {
+                stop
+            }
+        })?;
         let choice = chosen(&model, &args.method)?;
         Self::with(model, choice, &args.data, args.truth.as_deref())
     }
@@ -77,6 +84,10 @@ impl Plan {
         };
         self.tracks.tracks.iter().zip(&self.beginnings).map(point).collect()
     }
+}
+
+fn is_toml(path: &str) -> bool {
+    Path::new(path).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"))
 }
 
 /// A file as messages call it.

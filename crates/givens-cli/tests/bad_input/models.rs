@@ -92,6 +92,18 @@ fn wrong_models() {
                 &["model.toml:35:1: ", "n + kappa must be above zero", "the model has n = 4"],
             ),
             ("check", (M, "x + dt*vx", "x + dt*vz"), "check model.toml", &["model.toml:11:28: "]),
+            (
+                "swapped",
+                NONE,
+                "filter data.csv model.toml -o out.csv",
+                &["data.csv:1:", "not valid TOML", "the model comes first"],
+            ),
+            (
+                "method_option",
+                NONE,
+                "check model.toml --set method=ekf",
+                &["--set method=ekf: ", "--method ekf"],
+            ),
         ],
     );
 }

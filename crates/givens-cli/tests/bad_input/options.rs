@@ -65,7 +65,7 @@ fn wrong_methods_and_options() {
                 "word",
                 NONE,
                 "filter model.toml data.csv -o out.csv --set rule=cubatur3",
-                &["no such choice", "did you mean `cubature3`?"],
+                &["--set rule=cubatur3: no such choice", "did you mean `cubature3`?"],
             ),
             (
                 "points",
@@ -110,7 +110,7 @@ fn wrong_parameters_and_lists() {
                 "number",
                 NONE,
                 "filter model.toml data.csv -o out.csv --set kappa=two",
-                &["kappa = two: must be a number"],
+                &["--set kappa=two: must be a number"],
             ),
             (
                 "param",

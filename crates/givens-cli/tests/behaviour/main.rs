@@ -5,6 +5,7 @@
 mod common;
 mod compare;
 mod failures;
+mod large;
 mod output;
 mod rows;
 mod simulate;

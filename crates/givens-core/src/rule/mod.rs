@@ -41,7 +41,7 @@ pub struct Shape {
 /// What a rule learns of y = g(x), written into the caller's memory.
 #[derive(Debug)]
 pub struct Spread<'a, T> {
-    /// E[g], length d.
+    /// E\[g\], length d.
     pub mean: &'a mut [T],
     /// d rows of length `stride`: D in columns 0…n, the positive columns of E behind it; the caller's own beyond.
     pub dev: &'a mut [T],

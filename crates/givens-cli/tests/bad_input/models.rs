@@ -60,6 +60,16 @@ fn wrong_models() {
                 FILTER,
                 &["model.toml:22:", "`bearing` is -0.02"],
             ),
+        ],
+    );
+}
+
+#[test]
+fn models_that_are_none_and_filters_that_do_not_fit() {
+    const M: &str = "model.toml";
+    check(
+        "filters",
+        &[
             (
                 "missing_model",
                 NONE,

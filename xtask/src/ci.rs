@@ -27,7 +27,7 @@ const STEPS: &[Step] = &[
     Step { rustdoc: Some("-D warnings"), ..cargo("documentation", "doc --workspace --no-deps") },
     cargo("givens-core without std", "build -p givens-core --no-default-features"),
     cargo("build", "test --workspace --no-run"),
-    cargo("tests", "test --workspace"),
+    cargo("tests", "test --workspace --no-fail-fast"),
 ];
 
 /// Runs every step, also after one that failed, and tells how each went; whether all went well.

@@ -61,7 +61,7 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
     /// Predicts, and records the update. The filter must have been started for smoothing.
     ///
     /// # Errors
-    /// Those of [`Filter::predict`]; nothing is recorded then.
+    /// Those of [`Filter::predict`]; nothing is recorded then, though a full ring has forgotten its oldest record.
     pub fn predict<X: Method, M: Transition, C: Grow<T>>(
         &mut self,
         filter: &mut Filter<'_, X, M, T, C>,
@@ -70,6 +70,11 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
         let (n, square) = (self.states, if self.square_root { 0 } else { self.states * self.states });
         if self.capacity == 0 {
             return filter.predict(t);
+        }
+        if self.count == self.capacity {
+            // the slot is written before the prediction is known to succeed: its old record is gone either way
+            self.oldest = (self.oldest + 1) % self.capacity;
+            self.count -= 1;
         }
         let slot = (self.oldest + self.count) % self.capacity;
         let mut before = self.record(slot);
@@ -86,11 +91,7 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
         let (gain, conditional) = filter.backward();
         take(&mut after, gain.len()).copy_from_slice(gain);
         take(&mut after, conditional.len()).copy_from_slice(conditional);
-        if self.count == self.capacity {
-            self.oldest = (self.oldest + 1) % self.capacity;
-        } else {
-            self.count += 1;
-        }
+        self.count += 1;
         Ok(())
     }
 

@@ -18,8 +18,18 @@ pub fn check(inputs: &[(&str, Option<&str>)], outputs: &[(&str, Option<&Path>)])
     }
     for (k, (role, path)) in outputs.iter().enumerate() {
         let Some(place) = place(path).filter(|_| !is_standard(path)) else { continue };
-        let read = inputs.iter().map(|&(role, path)| (role, Path::new(path)));
-        let mut others = read.chain(outputs[..k].iter().copied());
+        // an output is PATH.partial until it is whole
+        let mut partial = place.clone().into_os_string();
+        partial.push(".partial");
+        let partial = PathBuf::from(partial);
+        let read = || inputs.iter().map(|&(role, path)| (role, Path::new(path)));
+        let mut all = read().chain(outputs.iter().copied());
+        if let Some((other, _)) = all.find(|(_, other)| self::place(other).as_ref() == Some(&partial)) {
+            let message =
+                format!("{role}: {} is written on the way, but it is the file of {other}", partial.display());
+            return Err(Stop::input(message).help("choose another name"));
+        }
+        let mut others = read().chain(outputs[..k].iter().copied());
         if let Some((other, _)) = others.find(|(_, other)| self::place(other).as_ref() == Some(&place)) {
             let message = format!("{role} {}: this is the file of {other} too", path.display());
             return Err(Stop::input(message).help("choose another name"));

@@ -95,6 +95,7 @@ pub type Tried<T> = (String, bool, Box<dyn Fn(&Case) -> Result<f64, StepError>>,
 
 /// Every rule in covariance form, then in square-root form with both updates.
 #[must_use]
+#[allow(clippy::needless_update)] // of the methods without options
 pub fn methods<T: Real>() -> Vec<Tried<T>> {
     let mut all: Vec<Tried<T>> = Vec::new();
     macro_rules! try_all {

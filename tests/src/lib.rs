@@ -6,6 +6,11 @@ pub mod ill_conditioned;
 pub mod models;
 pub mod scenario;
 
+// the examples of the README run with those of the documentation
+#[cfg(doctest)]
+#[doc = include_str!("../../README.md")]
+mod readme {}
+
 use proptest::prelude::ProptestConfig;
 use serde_json::Value;
 use std::path::PathBuf;

@@ -1,2 +1,40 @@
-//! Placeholder.
-fn main() {}
+//! The project's chores: `cargo xtask tidy` checks what the compiler does not, `cargo xtask ci` runs all that CI runs.
+
+mod ci;
+mod finding;
+mod rust_text;
+mod tidy;
+mod tree;
+
+use std::io::{Write, stderr};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+const USAGE: &str = "usage:
+  cargo xtask tidy    check order of modules and crates, lengths, citations, the registry and the README
+  cargo xtask ci      everything that CI runs: format, tidy, lints, documentation, builds, tests";
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    let done = match words.as_slice() {
+        ["tidy"] => tidy::run(&root()),
+        ["ci"] => ci::run(&root()),
+        _ => {
+            say(USAGE);
+            return ExitCode::from(2);
+        }
+    };
+    if done { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+}
+
+/// The root of the repository.
+fn root() -> PathBuf {
+    let own = Path::new(env!("CARGO_MANIFEST_DIR"));
+    own.parent().unwrap_or(own).to_path_buf()
+}
+
+/// Writes a line to stderr; if nobody reads it, there is nobody to tell.
+fn say(line: &str) {
+    let _ = writeln!(stderr(), "{line}");
+}

@@ -23,26 +23,28 @@ pub enum Command {
     /// Estimate each state from the measurements up to it
     #[command(after_help = "Examples:
   givens filter turn.toml radar.csv -o track.csv --plot track.svg
-  givens filter turn.toml radar.csv --method sr-ukf --set kappa=1 --format jsonl | head -1
+  givens filter turn.toml radar.csv --method ukf --set kappa=1 --format jsonl
   givens filter turn.toml - --truth truth.csv < radar.csv > track.csv")]
     Filter(FilterArgs),
     /// Estimate each state from all measurements, before and after it
     #[command(after_help = "Examples:
   givens smooth turn.toml radar.csv -o track.csv --plot track.png
-  givens smooth turn.toml radar.csv --lag 5          each row with the next five rows
-  givens smooth turn.toml radar.csv --point 0        the state at t = 0, better known with every row")]
+  givens smooth turn.toml radar.csv --lag 5      each row with the next five
+  givens smooth turn.toml radar.csv --point 0    the state at t = 0, row by row")]
     Smooth(SmoothArgs),
     /// Draw trajectories and measurements from a model
     #[command(after_help = "Examples:
   givens simulate turn.toml --steps 100 --seed 1 -o radar.csv --states truth.csv
-  givens simulate turn.toml --until 60 --every 0.5 --runs 250 --seed 7 -o runs.csv
-  givens simulate turn.toml --times radar.csv --seed 1    the rows, sensors and gaps of a table")]
+  givens simulate turn.toml --until 60 --every 0.5 --runs 9 --seed 7 -o runs.csv
+  givens simulate turn.toml --times radar.csv --seed 1    the rows of a table")]
     Simulate(SimulateArgs),
     /// Run several methods over the same data, side by side
-    #[command(after_help = "Example:
-  givens compare turn.toml radar.csv --methods ekf,sr-ukf,sr-ckf --set sr-ukf.kappa=0 --truth truth.csv")]
+    #[command(after_help = "Examples:
+  givens compare turn.toml radar.csv --methods ekf,sr-ukf,ckf --truth truth.csv
+  givens compare turn.toml radar.csv --methods ukf,ckf --set ukf.kappa=1")]
     Compare(CompareArgs),
     /// List the methods, their parts and their options
+    #[command(after_help = "Example:\n  givens methods | grep unscented")]
     Methods,
     /// Tell what was understood of a model file
     #[command(after_help = "Example:\n  givens check turn.toml --set update=separate")]
@@ -89,11 +91,11 @@ pub enum FormatArg {
 pub struct FilterArgs {
     #[command(flatten)]
     pub model: ModelArgs,
-    /// Table of measurements (CSV), `-` for standard input
+    /// Table of measurements (CSV: time, measures; sensor, track_id, u_… if any), `-` for standard input
     pub data: String,
     #[command(flatten)]
     pub method: MethodArgs,
-    /// True states (CSV: time and states), for RMSE, NEES and coverage
+    /// True states (CSV: time, states; track_id if any), for RMSE, NEES and coverage
     #[arg(long, value_name = "FILE")]
     pub truth: Option<String>,
     /// Where to write; standard output without it
@@ -112,7 +114,7 @@ pub struct SmoothArgs {
     #[command(flatten)]
     pub run: FilterArgs,
     /// Smooth each row with the next ROWS rows only
-    #[arg(long, value_name = "ROWS", conflicts_with = "point")]
+    #[arg(long, value_name = "ROWS", value_parser = whole, allow_negative_numbers = true, conflicts_with = "point")]
     pub lag: Option<usize>,
     /// Estimate the state at this one time, a line for each row from it on
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
@@ -125,21 +127,22 @@ pub struct SimulateArgs {
     pub model: ModelArgs,
     /// Until this time
     #[arg(long, value_name = "T", allow_hyphen_values = true, conflicts_with_all = ["steps", "times"])]
-    pub until: Option<f64>,
-    /// So many rows
-    #[arg(long, value_name = "N", conflicts_with = "times")]
+    pub until: Option<String>,
+    /// So many rows (where sensors share a column: so many of each)
+    #[arg(long, value_name = "N", value_parser = whole, allow_negative_numbers = true, conflicts_with = "times")]
     pub steps: Option<usize>,
     /// Time between rows; the model's step without it
-    #[arg(long, value_name = "DT", conflicts_with = "times")]
+    #[arg(long, value_name = "DT", value_parser = number, allow_negative_numbers = true, conflicts_with = "times")]
     pub every: Option<f64>,
-    /// At the rows of this table: its times, tracks, sensors, controls; where it has measures, those that it has
+    /// At the rows of this table (CSV): its times, tracks, sensors and controls; where it has columns of measures, only
+    /// the cells that are filled are drawn
     #[arg(long, value_name = "DATA")]
     pub times: Option<String>,
     /// Independent runs, each a track
-    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(long, value_name = "N", default_value = "1", value_parser = runs, allow_negative_numbers = true)]
     pub runs: u32,
     /// Seed of the random numbers: equal seeds draw equal data
-    #[arg(long, value_name = "S")]
+    #[arg(long, value_name = "S", value_parser = seed, allow_negative_numbers = true)]
     pub seed: u64,
     /// Where to write the measurements; standard output without it
     #[arg(long, short, value_name = "DATA")]
@@ -153,7 +156,7 @@ pub struct SimulateArgs {
 pub struct CompareArgs {
     #[command(flatten)]
     pub model: ModelArgs,
-    /// Table of measurements (CSV), `-` for standard input
+    /// Table of measurements (CSV: time, measures; sensor, track_id, u_… if any), `-` for standard input
     pub data: String,
     /// Methods, with commas between
     #[arg(long, value_name = "A,B,…", value_delimiter = ',', required = true)]
@@ -161,7 +164,7 @@ pub struct CompareArgs {
     /// A part or an option, of all methods or of one
     #[arg(long = "set", value_name = "[METHOD.]KEY=VALUE")]
     pub settings: Vec<String>,
-    /// True states (CSV: time and states), for RMSE, NEES and coverage
+    /// True states (CSV: time, states; track_id if any), for RMSE, NEES and coverage
     #[arg(long, value_name = "FILE")]
     pub truth: Option<String>,
 }
@@ -172,4 +175,25 @@ pub struct CheckArgs {
     pub model: ModelArgs,
     #[command(flatten)]
     pub method: MethodArgs,
+}
+
+/// A whole number.
+fn whole(text: &str) -> Result<usize, String> {
+    text.parse().map_err(|_| "must be a whole number, zero or above".to_owned())
+}
+
+/// A number of runs.
+fn runs(text: &str) -> Result<u32, String> {
+    let above_zero = text.parse().ok().filter(|&runs: &u32| runs > 0);
+    above_zero.ok_or_else(|| "must be a whole number above zero".to_owned())
+}
+
+/// A seed.
+fn seed(text: &str) -> Result<u64, String> {
+    text.parse().map_err(|_| "must be a whole number, zero or above".to_owned())
+}
+
+/// A number.
+fn number(text: &str) -> Result<f64, String> {
+    text.parse().map_err(|_| "must be a number".to_owned())
 }

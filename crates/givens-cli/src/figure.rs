@@ -1,37 +1,45 @@
 //! The figure of a run.
 
 use crate::message::Stop;
+use crate::method::title;
 use crate::plan::Plan;
 use crate::session::Session;
 use givens::metrics::chi_squared_band;
-use givens_io::figure::{NisSeries, PlaneTrack, StateSeries, Track, TrackFigure, write};
+use givens_io::figure::{NisSeries, PlaneTrack, StateSeries, Track, TrackFigure, png, svg};
 use std::collections::HashMap;
 use std::path::Path;
 
 /// Only these endings are drawn; told before anything runs.
 pub fn check(path: &Path) -> Result<(), Stop> {
-    let ending = path.extension().and_then(|ending| ending.to_str()).map(str::to_lowercase);
-    if matches!(ending.as_deref(), Some("svg" | "png")) {
-        return Ok(());
+    match ending(path).as_str() {
+        "svg" | "png" => Ok(()),
+        _ => Err(Stop::input(format!("--plot {}: the name must end in .svg or .png", path.display()))),
     }
-    Err(Stop::input(format!("--plot {}: the name must end in .svg or .png", path.display())))
 }
 
-/// Draws the run.
-pub fn draw(path: &Path, plan: &Plan, session: &Session) -> Result<(), Stop> {
+fn ending(path: &Path) -> String {
+    path.extension().map_or(String::new(), |ending| ending.to_string_lossy().to_lowercase())
+}
+
+/// Draws the run: the bytes of the file `path`, SVG or PNG by its ending.
+pub fn draw(path: &Path, plan: &Plan, session: &Session) -> Result<Vec<u8>, Stop> {
     let model = &plan.model;
     let plane = model.plane;
     let name = |i: usize| model.states[i].clone();
     let smoothed = session.estimates().any(givens::Estimates::is_smoothed);
     let what = if smoothed { "smoothed" } else { "filtered" };
     let figure = TrackFigure {
-        title: format!("{} — {what} by {}", stem(&model.file), plan.choice.name),
+        title: format!("{} — {what} by {}", stem(&model.file), title(&plan.choice)),
         plane_labels: plane.map_or_else(Default::default, |[x, y]| [name(x), name(y)]),
         tracks: (0..session.answers.len()).map(|i| track(plan, session, i)).collect(),
         smoothed,
         ..TrackFigure::default()
     };
-    write(path, &figure.figure()).map_err(|error| Stop::failed(format!("--plot: {error}")))
+    let figure = figure.figure();
+    match ending(path).as_str() {
+        "png" => png(&figure).map_err(|error| Stop::failed(format!("--plot: {error}"))),
+        _ => Ok(svg(&figure).into_bytes()),
+    }
 }
 
 fn stem(file: &str) -> &str {
@@ -51,7 +59,11 @@ fn track(plan: &Plan, session: &Session, i: usize) -> Track {
         mean: series(state, &est.mean),
         std: (0..est.len()).map(|row| est.std(row, state)).collect(),
         filtered: est.is_smoothed().then(|| series(state, &est.filtered_mean)),
-        truth: truth.as_ref().map(|truth| series(state, &truth.states)),
+        // a state that the truth does not know has no error to draw
+        truth: truth
+            .as_ref()
+            .map(|truth| series(state, &truth.states))
+            .filter(|x| x.iter().any(|x| !x.is_nan())),
     });
     let plane = plan.model.plane.map(|[x, y]| {
         let pairs =
@@ -76,7 +88,7 @@ fn track(plan: &Plan, session: &Session, i: usize) -> Track {
 fn true_way(plan: &Plan, i: usize, x: usize, y: usize) -> Option<Vec<[f64; 2]>> {
     let truth = plan.truth.as_ref()?;
     let (xs, ys) = (truth.states[x].as_ref()?, truth.states[y].as_ref()?);
-    Some((0..truth.times.len()).filter(|&k| truth.tracks[k] == i).map(|k| [xs[k], ys[k]]).collect())
+    Some(plan.truth_rows[i].iter().map(|&k| [xs[k], ys[k]]).collect())
 }
 
 fn nis(est: &givens::Estimates) -> NisSeries {

@@ -4,12 +4,15 @@
 mod args;
 mod commands;
 mod figure;
+mod files;
 mod message;
+mod method;
 mod plan;
 mod progress;
 mod report;
 mod session;
 mod stdout;
+mod timetable;
 
 use clap::Parser;
 use std::process::ExitCode;

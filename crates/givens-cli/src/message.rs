@@ -1,6 +1,7 @@
 //! Words on stderr, and the reasons to stop.
 
-use givens_io::{DestinationError, InputErrors};
+use givens_io::InputErrors;
+use std::io::Write;
 
 /// Why the command stops, and its exit code.
 #[derive(Debug)]
@@ -21,6 +22,16 @@ impl Stop {
     pub fn failed(message: impl Into<String>) -> Self {
         Self { message: format!("error: {}", message.into()), code: 1 }
     }
+
+    /// Several filters failed, each in a message of its own.
+    pub fn failures(messages: &[String]) -> Self {
+        Self::failed(messages.join("\nerror: "))
+    }
+
+    /// The same with a remedy.
+    pub fn help(self, help: impl AsRef<str>) -> Self {
+        Self { message: format!("{}\n  help: {}", self.message, help.as_ref()), ..self }
+    }
 }
 
 impl From<InputErrors> for Stop {
@@ -33,14 +44,12 @@ impl From<InputErrors> for Stop {
     }
 }
 
-impl From<DestinationError> for Stop {
-    fn from(error: DestinationError) -> Self {
-        Self::input(error.to_string())
-    }
+/// A line on stderr. If nobody reads it, the work goes on.
+pub fn say(text: &str) {
+    let _ = writeln!(std::io::stderr().lock(), "{text}");
 }
 
-/// A line on stderr.
-#[allow(clippy::print_stderr)]
-pub fn say(text: &str) {
-    eprintln!("{text}");
+/// `1 row`, `2 rows`.
+pub fn count(number: usize, noun: &str) -> String {
+    if number == 1 { format!("1 {noun}") } else { format!("{number} {noun}s") }
 }

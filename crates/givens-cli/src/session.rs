@@ -1,5 +1,6 @@
 //! A plan carried out: the method over every track.
 
+use crate::message::count;
 use crate::plan::Plan;
 use crate::progress::Progress;
 use crate::report;
@@ -14,6 +15,8 @@ pub struct Session {
     pub answers: Vec<Answer>,
     /// Tracks that failed, in words.
     pub failures: Vec<String>,
+    /// What each track was run for.
+    goals: Vec<Goal>,
 }
 
 impl Session {
@@ -34,7 +37,15 @@ impl Session {
             let outcome = choice.run(model, sensors, rows, begin.time, &begin.prior, *goal);
             if let Some((row, error)) = &outcome.failure {
                 let at = &track.rows[begin.row + row];
-                failures.push(report::failure(&plan.model, &plan.data, track, at, error));
+                let place = report::place(&plan.data, track, at, error.time);
+                let what = if *goal == Goal::Filter { "filter" } else { "smoother" };
+                let told = report::failure(&plan.model, &place, what, Some(choice.form), error);
+                let finished = match outcome.estimates.len() {
+                    0 => "no row".to_owned(),
+                    rows => count(rows, "row"),
+                };
+                let of = track.id.as_ref().map_or(String::new(), |id| format!(" of track {id}"));
+                failures.push(format!("{told}\n  {finished}{of} finished before"));
             }
             let finished = outcome.estimates;
             let mut row = begin.row;
@@ -48,7 +59,7 @@ impl Session {
             answers.push(Answer { estimates: finished, row, started, from_first });
         }
         progress.finish();
-        Self { answers, failures }
+        Self { answers, failures, goals: goals.to_vec() }
     }
 
     /// All estimates.
@@ -56,14 +67,21 @@ impl Session {
         self.answers.iter().map(|answer| &answer.estimates)
     }
 
-    /// The truth at the rows of track `i`, NaN where there is none.
+    /// Log-likelihood of all tracks.
+    pub fn log_likelihood(&self) -> f64 {
+        self.estimates().map(Estimates::total_log_likelihood).fold(0.0, core::ops::Add::add)
+    }
+
+    /// The truth that the rows of track `i` estimate, NaN where there is none.
     pub fn truth_at_rows(&self, plan: &Plan, i: usize) -> Option<Truth> {
         let truth = plan.truth.as_ref()?;
         let est = &self.answers[i].estimates;
         let n = plan.model.states.len();
         let mut states = vec![f64::NAN; est.len() * n];
-        let times: Vec<usize> = (0..truth.times.len()).filter(|&k| truth.tracks[k] == i).collect();
+        let times = &plan.truth_rows[i];
         for (row, &t) in est.time.iter().enumerate() {
+            // a fixed point is of one time, whatever the row
+            let t = if let Goal::Point(t) = self.goals[i] { t } else { t };
             let near = times.partition_point(|&k| truth.times[k] < t - close(t));
             let Some(&k) = times.get(near).filter(|&&k| (truth.times[k] - t).abs() <= close(t)) else {
                 continue;

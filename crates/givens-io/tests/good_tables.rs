@@ -119,8 +119,15 @@ fn a_table_of_times_needs_no_measures_and_truth_stands_beside_tracks() {
     };
     let model = model("");
     let times = givens_io::read_times(&write("times.csv", "time\n1\n2\n"), &model).unwrap();
-    assert_eq!(times.tracks[0].rows.len(), 2);
-    assert!(times.tracks[0].rows[0].z.iter().all(|value| value.is_nan()));
+    let asked = |tracks: &Tracks, row: usize| -> Vec<bool> {
+        tracks.tracks[0].rows[row].z.iter().map(|value| !value.is_nan()).collect()
+    };
+    assert_eq!((asked(&times, 0), asked(&times, 1)), (vec![true; 3], vec![true; 3]));
+    let times = givens_io::read_times(&write("times.csv", "time,sensor\n1,gps\n2,\n"), &model).unwrap();
+    assert_eq!((asked(&times, 0), asked(&times, 1)), (vec![false, false, true], vec![true; 3]));
+    let times = write("times.csv", "time,range,bearing\n1,9,\n2,,\n");
+    let times = givens_io::read_times(&times, &model).unwrap();
+    assert_eq!((asked(&times, 0), asked(&times, 1)), (vec![true, false, false], vec![false; 3]));
 
     let tracks = read("time,track_id,px\n2026-03-01T12:00:00Z,a,1\n2026-03-01T13:00:00Z,b,1\n", &model);
     let truth = "time,track_id,y,z\n2026-03-01T13:00:01Z,b,4,0\n2026-03-01T12:00:02Z,a,,0\n";

@@ -24,6 +24,7 @@ pub struct Row<'a> {
 pub struct Data {
     measures: usize,
     controls: usize,
+    start: Option<f64>,
     time: Vec<f64>,
     z: Vec<f64>,
     u: Vec<f64>,
@@ -32,7 +33,7 @@ pub struct Data {
 /// Why a row was refused.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum DataError {
-    /// A time that is not finite, or before the row above.
+    /// A time that is not finite, or before the row above or the initial belief.
     Time {
         /// The row, from zero.
         row: usize,
@@ -63,7 +64,7 @@ impl core::fmt::Display for DataError {
             Self::Time { row, time } => {
                 write!(
                     f,
-                    "row {row}: time {time} is before the row above, or not finite; rows stand in time order"
+                    "row {row}: time {time} is before the row above or the initial belief, or not finite"
                 )
             }
             Self::Infinite { row, component } => {
@@ -86,7 +87,18 @@ impl Data {
 
     /// No rows yet, of measurements and controls of these lengths.
     pub fn with_controls(measures: usize, controls: usize) -> Self {
-        Self { measures, controls, time: Vec::new(), z: Vec::new(), u: Vec::new() }
+        Self { measures, controls, start: None, time: Vec::new(), z: Vec::new(), u: Vec::new() }
+    }
+
+    /// The initial belief holds at `t0`; without this, at the first row, which is then updated without prediction.
+    #[must_use]
+    pub fn starting_at(self, t0: f64) -> Self {
+        Self { start: Some(t0), ..self }
+    }
+
+    /// The time at which the initial belief holds; zero if there is nothing to tell it.
+    pub fn start(&self) -> f64 {
+        self.start.or(self.time.first().copied()).unwrap_or(0.0)
     }
 
     /// Adds a row; NaN marks a missing component.
@@ -108,7 +120,7 @@ impl Data {
                 return Err(DataError::Length { row, expected, found });
             }
         }
-        if !time.is_finite() || self.time.last().is_some_and(|&last| time < last) {
+        if !time.is_finite() || self.time.last().copied().or(self.start).is_some_and(|last| time < last) {
             return Err(DataError::Time { row, time });
         }
         if let Some(component) = z.iter().position(|z| z.is_infinite()) {

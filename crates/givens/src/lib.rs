@@ -10,12 +10,12 @@
 //! use givens::model::zoo::{CoordinatedTurn, RangeBearing};
 //! use givens::Data;
 //!
-//! let mut data = Data::new(2);
+//! let mut data = Data::new(2).starting_at(0.0);
 //! data.push(1.0, &[1640.0, 0.65])?;
 //! data.push(2.0, &[1890.0, f64::NAN])?; // the bearing is missing
 //! let prior = Gaussian::from_std(&[1000.0, 300.0, 1000.0, 0.0, -0.05], &[10.0, 3.2, 10.0, 3.2, 0.01])?;
 //! let (turn, radar) = (CoordinatedTurn::default(), RangeBearing::published());
-//! let est = givens::smooth(&SrCkf::default(), &turn, &radar, &data, 0.0, &prior)?;
+//! let est = givens::smooth(&SrCkf::default(), &turn, &radar, &data, &prior)?;
 //! assert_eq!(est.len(), 2);
 //! assert!(est.cov(0)[0] <= est.filtered_cov(0)[0]);
 //! # Ok::<(), Box<dyn std::error::Error>>(())

@@ -34,9 +34,9 @@ impl Map for Polynomial {
         linear_scratch(8, 1, 0)
     }
     fn points<T: Real>(&self, _: &At<T>, points: usize, x: &[T], out: &mut [T], _: &mut [T]) {
-        for j in 0..points {
+        for (j, image) in out[..points].iter_mut().enumerate() {
             let point: Vec<T> = x.iter().skip(j).step_by(points).copied().collect();
-            out[j] = self.at(&point);
+            *image = self.at(&point);
         }
     }
     fn linear<T: Real>(

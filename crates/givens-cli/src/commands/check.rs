@@ -1,31 +1,36 @@
 //! `givens check`: what was understood of a model file.
 
 use crate::args::CheckArgs;
-use crate::message::Stop;
-use crate::plan::{choose, model, settings};
+use crate::message::{Stop, count};
+use crate::method::{chosen, form, options};
+use crate::plan::model;
 use crate::stdout;
-use givens::filter::Block;
 use givens::model::{Noise, Transition};
-use givens::registry::FormName;
+use givens::registry::Choice;
 use givens_io::Model;
 use std::io::{self, Write};
 
 /// Reads the model and its method, and tells sizes, sensors and parts.
 pub fn check(args: &CheckArgs) -> Result<(), Stop> {
     let model = model(&args.model)?;
-    let choice = choose(&model, args.method.method.as_deref(), &settings(&args.method)?)?;
-    let update = match (choice.form, choice.block) {
-        (FormName::Covariance, _) => "",
-        (FormName::SquareRoot, Block::Joint) => ", update joint",
-        (FormName::SquareRoot, Block::Separate) => ", update separate",
-    };
-    let parts = format!("{}: rule {}, form {}{update}", choice.name, choice.rule.word(), choice.form.word());
-    stdout::write(|out| tell(out, &model, &parts))
+    let choice = chosen(&model, &args.method)?;
+    stdout::write(|out| {
+        tell(out, &model)?;
+        writeln!(out, "  method      {}", parts(&model, &choice))
+    })
 }
 
-fn tell(out: &mut dyn Write, model: &Model, method: &str) -> io::Result<()> {
+fn parts(model: &Model, choice: &Choice) -> String {
+    let mut parts = vec![format!("rule {}", choice.rule.word())];
+    parts.extend(options(choice, model.states.len()).iter().map(|(key, value)| format!("{key} {value}")));
+    parts.push(format!("form {}", form(choice)));
+    format!("{}: {}", choice.name, parts.join(", "))
+}
+
+fn tell(out: &mut dyn Write, model: &Model) -> io::Result<()> {
     let n = model.states.len();
-    writeln!(out, "{}: a discrete-time model, {n} states, {} measures", model.file, model.measures())?;
+    let sizes = format!("{}, {}", count(n, "state"), count(model.measures(), "measure"));
+    writeln!(out, "{}: a discrete-time model, {sizes}", model.file)?;
     let step = match model.transition.period() {
         Some(step) => format!("steps of {step}"),
         None => "one transition per gap".to_owned(),
@@ -33,6 +38,9 @@ fn tell(out: &mut dyn Write, model: &Model, method: &str) -> io::Result<()> {
     let noisy = if model.transition.noise() == Noise::Root(0) { ", no process noise" } else { "" };
     writeln!(out, "  time        {step}{noisy}")?;
     let begins = match (model.time, &model.start) {
+        (Some(_), _) if model.epoch.is_some() => {
+            format!("at {}", model.epoch.map_or(String::new(), |epoch| epoch.to_string()))
+        }
         (Some(time), _) => format!("at {time}"),
         (None, Some(_)) => "at the first row that `start` can read".to_owned(),
         (None, None) => "at the first row of each track".to_owned(),
@@ -61,5 +69,5 @@ fn tell(out: &mut dyn Write, model: &Model, method: &str) -> io::Result<()> {
     if let Some([x, y]) = model.plane {
         writeln!(out, "  plane       {} across, {} upwards", model.states[x], model.states[y])?;
     }
-    writeln!(out, "  method      {method}")
+    Ok(())
 }

@@ -1,53 +1,84 @@
 //! `givens compare`: several methods over the same data, a line each.
 
 use crate::args::CompareArgs;
-use crate::message::{Stop, say};
-use crate::plan::{Plan, choose, model, setting};
+use crate::files;
+use crate::message::{Stop, count, say};
+use crate::method::{Named, Typed, choose, setting};
+use crate::plan::{Plan, model};
+use crate::report::digits;
 use crate::session::Session;
 use crate::stdout;
-use givens::Goal;
 use givens::metrics::{Consistency, Verdict};
 use givens::registry::{Choice, Setting, find};
+use givens::{Estimates, Goal};
+use givens_io::Model;
+use std::io::{self, Write};
 use std::time::Instant;
 
-/// Runs every method as a filter and as a smoother and lays their figures side by side.
+/// Runs every method over the data, with a truth as a smoother too, and lays their figures side by side.
 pub fn compare(args: &CompareArgs) -> Result<(), Stop> {
+    files::check(
+        &[("MODEL", Some(&args.model.model)), ("DATA", Some(&args.data)), ("--truth", args.truth.as_deref())],
+        &[],
+    )?;
     let model = model(&args.model)?;
-    let mut settings: Vec<(Option<&str>, Setting)> = Vec::new();
-    for text in &args.settings {
-        let whole = setting(text)?;
-        match whole.key.split_once('.') {
-            None => settings.push((None, whole)),
-            Some((method, key)) => {
-                let Some(named) = args.methods.iter().find(|name| *name == method) else {
-                    return Err(Stop::input(format!("--set {text}: `{method}` is not among --methods")));
-                };
-                settings.push((Some(named), Setting { key: key.to_owned(), value: whole.value }));
-            }
-        }
-    }
-    let choices = args.methods.iter().map(|name| {
-        let own = settings.iter().filter(|(method, _)| method.is_none_or(|method| method == name));
-        let own: Vec<Setting> = own.map(|(_, setting)| setting.clone()).collect();
-        choose(&model, Some(name), &own)
-    });
-    let choices: Vec<Choice> = choices.collect::<Result<_, _>>()?;
+    let choices = choices(&model, args)?;
     let Some(&first) = choices.first() else { return Err(Stop::input("--methods names no method")) };
     let plan = Plan::with(model, first, &args.data, args.truth.as_deref())?;
     let mut table = vec![header(&plan)];
     let mut failures = Vec::new();
     for (name, choice) in args.methods.iter().zip(&choices) {
-        let (line, failed) = line(&plan, name, choice);
+        let (line, failed) = line(&plan, name.trim(), choice);
         table.push(line);
-        failures.extend(failed.into_iter().map(|failure| format!("{name}: {failure}")));
+        failures.extend(failed.into_iter().map(|failure| format!("{}: {failure}", name.trim())));
     }
     stdout::write(|out| aligned(out, &table))?;
-    say(&format!(
-        "{} rows; µs per row: the run alone, once, without reading and writing{}",
-        plan.tracks.tracks.iter().map(|track| track.rows.len()).sum::<usize>(),
-        if plan.truth.is_some() { "; RMSE of the filter | of the smoother" } else { "" }
-    ));
-    if failures.is_empty() { Ok(()) } else { Err(Stop::failed(failures.join("\nerror: "))) }
+    let rows = plan.tracks.tracks.iter().map(|track| track.rows.len()).sum();
+    let pair = if plan.truth.is_some() { "; RMSE and NEES of the filter | of the smoother" } else { "" };
+    let timed = "µs/row: the filter alone, once, without reading and writing";
+    say(&format!("{}; {timed}{pair}", count(rows, "row")));
+    if failures.is_empty() { Ok(()) } else { Err(Stop::failures(&failures)) }
+}
+
+/// The methods with their settings: those without a name before the dot are for all.
+fn choices(model: &Model, args: &CompareArgs) -> Result<Vec<Choice>, Stop> {
+    let names: Vec<&str> = args.methods.iter().map(|name| name.trim()).collect();
+    if names.iter().any(|name| name.is_empty()) {
+        let list = args.methods.join(",");
+        let stop = Stop::input(format!("--methods {list}: a name is empty"));
+        return Err(stop.help("write names with commas between: --methods ekf,sr-ckf"));
+    }
+    let mut settings: Vec<(Option<&str>, Typed)> = Vec::new();
+    for text in &args.settings {
+        let Typed { text, setting } = setting(text)?;
+        let Some((method, key)) = setting.key.split_once('.') else {
+            settings.push((None, Typed { text, setting }));
+            continue;
+        };
+        let Some(named) = names.iter().find(|name| **name == method) else {
+            return Err(Stop::input(format!("--set {text}: `{method}` is not among --methods"))
+                .help(format!("they are {}", names.join(", "))));
+        };
+        let setting = Setting { key: key.to_owned(), value: setting.value };
+        settings.push((Some(named), Typed { text, setting }));
+    }
+    let of = |name: &&str| -> Result<Choice, Stop> {
+        let own = settings.iter().filter(|(method, _)| method.is_none_or(|method| method == *name));
+        let own: Vec<Typed> = own.map(|(_, typed)| typed.clone()).collect();
+        choose(model, Some(Named { option: "--methods", name }), &own)
+            .map_err(|stop| one_only(stop, &settings))
+    };
+    names.iter().map(of).collect()
+}
+
+/// A setting of all methods that one of them does not read can be given to the others by name.
+fn one_only(stop: Stop, settings: &[(Option<&str>, Typed)]) -> Stop {
+    let mut all = settings.iter().filter(|(method, _)| method.is_none()).map(|(_, typed)| typed);
+    let unread = |typed: &&Typed| stop.message.contains(&format!("does not read `{}`", typed.setting.key));
+    match all.find(unread) {
+        Some(typed) => stop.help(format!("give it to one method alone: --set METHOD.{}", typed.text)),
+        None => stop,
+    }
 }
 
 fn header(plan: &Plan) -> Vec<String> {
@@ -68,8 +99,7 @@ fn line(plan: &Plan, name: &str, choice: &Choice) -> (Vec<String>, Vec<String>) 
     let begun = Instant::now();
     let filtered = Session::run(plan, choice, &goals(Goal::Filter));
     let seconds = begun.elapsed().as_secs_f64();
-    let rows: usize = filtered.estimates().map(givens::Estimates::len).sum();
-    let log_likelihood: f64 = filtered.estimates().map(givens::Estimates::total_log_likelihood).sum();
+    let rows: usize = filtered.estimates().map(Estimates::len).sum();
     let consistency = Consistency::of(filtered.estimates());
     let verdict = match consistency.verdict() {
         Verdict::Unknown => "unknown",
@@ -77,19 +107,15 @@ fn line(plan: &Plan, name: &str, choice: &Choice) -> (Vec<String>, Vec<String>) 
         Verdict::Overconfident => "overconfident",
         Verdict::Underconfident => "underconfident",
     };
-    let name = if find(name).is_some_and(|entry| entry.name == name) {
-        name.to_owned()
-    } else {
-        format!("{name} = {}", choice.name)
-    };
+    let own_name = find(name).is_some_and(|entry| entry.name == name);
     let mut line = vec![
-        name,
+        if own_name { name.to_owned() } else { format!("{name} = {}", choice.name) },
         rows.to_string(),
         filtered.failures.len().to_string(),
-        format!("{log_likelihood:.4}"),
-        format!("{:.4}", consistency.ratio),
+        format!("{:.4}", filtered.log_likelihood()),
+        digits(consistency.ratio),
         verdict.to_owned(),
-        format!("{:.2}", 1e6 * seconds / rows.max(1) as f64),
+        if rows == 0 { "-".to_owned() } else { format!("{:.2}", 1e6 * seconds / rows as f64) },
     ];
     let mut failures = filtered.failures.clone();
     if let Some(truth) = &plan.truth {
@@ -99,7 +125,7 @@ fn line(plan: &Plan, name: &str, choice: &Choice) -> (Vec<String>, Vec<String>) 
             failures.extend(smoothed.failures);
         }
         let pair = |f: Option<f64>, s: Option<f64>| {
-            format!("{:.4} | {:.4}", f.unwrap_or(f64::NAN), s.unwrap_or(f64::NAN))
+            format!("{} | {}", digits(f.unwrap_or(f64::NAN)), digits(s.unwrap_or(f64::NAN)))
         };
         for i in (0..plan.model.states.len()).filter(|&i| truth.states[i].is_some()) {
             line.push(pair(f.as_ref().map(|f| f.rmse[i]), s.as_ref().map(|s| s.rmse[i])));
@@ -110,7 +136,7 @@ fn line(plan: &Plan, name: &str, choice: &Choice) -> (Vec<String>, Vec<String>) 
 }
 
 /// Columns as wide as their widest cell; the first one to the left, the others to the right.
-fn aligned(out: &mut dyn std::io::Write, table: &[Vec<String>]) -> std::io::Result<()> {
+fn aligned(out: &mut dyn Write, table: &[Vec<String>]) -> io::Result<()> {
     let columns = table.iter().map(Vec::len).max().unwrap_or(0);
     let width = |column: usize| {
         table.iter().filter_map(|line| line.get(column)).map(|cell| cell.chars().count()).max().unwrap_or(0)

@@ -1,12 +1,13 @@
 //! `givens filter` and `givens smooth`.
 
 use crate::args::{FilterArgs, FormatArg, SmoothArgs};
+use crate::files::{self, Sink};
 use crate::message::Stop;
 use crate::plan::Plan;
 use crate::session::Session;
-use crate::{figure, report, stdout};
+use crate::{figure, report};
 use givens::Goal;
-use givens_io::{Destination, Format, write_answers};
+use givens_io::{Format, write_answers};
 use std::path::Path;
 
 /// Estimates each state from the measurements up to it.
@@ -23,39 +24,40 @@ pub fn smooth(args: &SmoothArgs) -> Result<(), Stop> {
 }
 
 fn run(args: &FilterArgs, goals: impl Fn(&Plan) -> Result<Vec<Goal>, Stop>) -> Result<(), Stop> {
-    let format = format(args.format, args.output.as_deref());
-    args.plot.as_deref().map_or(Ok(()), figure::check)?;
+    let (output, plot) = (args.output.as_deref(), args.plot.as_deref());
+    let format = format(args.format, output)?;
+    plot.map_or(Ok(()), figure::check)?;
+    files::check(
+        &[("MODEL", Some(&args.model.model)), ("DATA", Some(&args.data)), ("--truth", args.truth.as_deref())],
+        &[("-o", output), ("--plot", plot)],
+    )?;
     let plan = Plan::new(args)?;
     let goals = goals(&plan)?;
-    let destination = args.output.as_ref().map(Destination::create).transpose()?;
+    let sink = Sink::open(output)?;
+    let canvas = match plot {
+        Some(path) => Some((path, Sink::open(Some(path))?)),
+        None => None,
+    };
     let session = Session::run(&plan, &plan.choice, &goals);
-    let (model, tracks, answers) = (&plan.model, &plan.tracks, &session.answers);
-    match destination {
-        None => stdout::write(|out| write_answers(out, format, model, tracks, answers))?,
-        Some(mut file) => {
-            write_answers(&mut file, format, model, tracks, answers)
-                .map_err(|error| Stop::failed(format!("cannot write the output: {error}")))?;
-            file.finish()?;
-        }
-    }
-    if let Some(plot) = &args.plot {
-        figure::draw(plot, &plan, &session)?;
+    sink.write(|out| write_answers(out, format, &plan.model, &plan.tracks, &session.answers))?;
+    if let Some((path, canvas)) = canvas {
+        let picture = figure::draw(path, &plan, &session)?;
+        canvas.write(|out| out.write_all(&picture))?;
     }
     report::closing(&plan, &session);
-    if session.failures.is_empty() {
-        return Ok(());
-    }
-    Err(Stop::failed(session.failures.join("\nerror: ")))
+    if session.failures.is_empty() { Ok(()) } else { Err(Stop::failures(&session.failures)) }
 }
 
 /// The format asked for, or that of the output's name.
-fn format(asked: Option<FormatArg>, output: Option<&Path>) -> Format {
-    match asked {
-        Some(FormatArg::Csv) => Format::Csv,
-        Some(FormatArg::Jsonl) => Format::Jsonl,
-        None => match output.and_then(Path::extension).and_then(|ending| ending.to_str()) {
-            Some("jsonl" | "ndjson") => Format::Jsonl,
-            _ => Format::Csv,
-        },
+fn format(asked: Option<FormatArg>, output: Option<&Path>) -> Result<Format, Stop> {
+    let ending = output.and_then(Path::extension).map(|ending| ending.to_string_lossy().to_lowercase());
+    match (asked, ending.as_deref()) {
+        (Some(FormatArg::Jsonl), _) | (None, Some("jsonl" | "ndjson")) => Ok(Format::Jsonl),
+        (None, Some(other @ ("json" | "parquet" | "arrow" | "xlsx" | "html" | "svg" | "png"))) => {
+            let name = output.unwrap_or(Path::new("")).display();
+            let stop = Stop::input(format!("-o {name}: this version does not write .{other}"));
+            Err(stop.help("name the output .csv or .jsonl, or say --format csv or --format jsonl"))
+        }
+        (Some(FormatArg::Csv) | None, _) => Ok(Format::Csv),
     }
 }

@@ -54,6 +54,8 @@ pub enum Quantity {
     MeasurementNoise,
     /// A measurement given to the filter.
     Measurement,
+    /// The square of a measurement's innovation, in standard deviations.
+    Innovation,
     /// A state estimate.
     Estimate,
     /// A control given to the filter.
@@ -72,6 +74,7 @@ impl Quantity {
             Quantity::ProcessNoise => "process noise",
             Quantity::MeasurementNoise => "measurement noise",
             Quantity::Measurement => "measurement",
+            Quantity::Innovation => "squared innovation",
             Quantity::Estimate => "state estimate",
             Quantity::Control => "control",
             Quantity::Parameter => "parameter",

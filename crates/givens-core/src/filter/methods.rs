@@ -7,6 +7,8 @@ use super::{Fault, Filter, Gaussian, Prior, Sizes, StepError};
 #[cfg(feature = "alloc")]
 use crate::model::Transition;
 use crate::rule::{CentralDifference, Cubature3, Cubature5, GaussHermite, Rule, Taylor, Unscented};
+#[cfg(feature = "alloc")]
+use core::borrow::Borrow;
 
 /// A discrete-time filter as its parts: a rule, a form and a measurement update.
 pub trait Method: Copy {
@@ -30,13 +32,14 @@ pub trait Method: Copy {
         &self,
         model: &'m M,
         t0: f64,
-        prior: &Gaussian,
+        prior: impl Borrow<Gaussian>,
     ) -> Result<Filter<'m, Self, M, f64, alloc::vec::Vec<f64>>, StepError> {
         let n = model.states();
         self.rule().check(n).map_err(|error| StepError { fault: Fault::Option(error), time: t0, step: 0 })?;
         let sizes = Sizes::of_model(model, self.rule().shape(n));
         let memory =
             alloc::vec![0.0; Filter::<Self, M, f64, alloc::vec::Vec<f64>>::memory_len(self, sizes, false)];
+        let prior = prior.borrow();
         let prior = Prior { time: t0, mean: prior.mean(), factor: prior.factor(), cov: prior.cov() };
         Filter::start_in(*self, model, sizes, false, prior, memory)
     }

@@ -20,7 +20,7 @@ use core::marker::PhantomData;
 ///
 /// let (model, radar) = (CoordinatedTurn::default(), RangeBearing::published());
 /// let prior = Gaussian::from_std(&[1000.0, 300.0, 1000.0, 0.0, -0.05], &[10.0, 3.2, 10.0, 3.2, 0.01])?;
-/// let mut f = SrCkf::default().start(&model, 0.0, &prior)?;
+/// let mut f = SrCkf::default().start(&model, 0.0, prior)?;
 /// f.predict(1.0)?;
 /// f.update(&radar, &[1640.0, 0.65])?;
 /// assert!((f.mean()[0] - 1300.0).abs() < 20.0 && f.innovation().nis < 9.2);

@@ -4,7 +4,7 @@ use super::Health;
 use super::rest::{errors_above, norm};
 use crate::scalar::{Mask, Real};
 
-/// L with L Lᵀ − v vᵀ in place of L Lᵀ, L lower triangular n × n in rows of length `stride` (`spec` §0).
+/// L with L Lᵀ − v vᵀ in place of L Lᵀ, L lower triangular n × n in rows of length `stride` (docs/algorithms.md §2).
 ///
 /// `v` (length n) is used up, and the triangle above the diagonal, which must be zero, stays so. The square of pivot k
 /// is r² = L_kk² − v_k², known to τ = e max(L_kk, |v_k|), where e is 64 ε ‖row k‖ and what the errors of the rows
@@ -44,14 +44,15 @@ pub fn downdate<T: Real>(l: &mut [T], n: usize, stride: usize, v: &mut [T]) -> H
         let r = T::select(cleared, zero, T::select(untouched, pivot, r2.sqrt()));
         let c = T::select(still, one, r / pivot);
         let s = T::select(still, zero, vk / pivot);
+        let side = one.copysign(vk);
         l[k * stride + k] = r;
         for i in k + 1..n {
             let below = l[i * stride + k];
-            // a zero square of the pivot forces a zero column: what is left of it must be within its rounding
-            let left = below.abs() - v[i].abs();
+            // a zero square of the pivot forces a zero column: |A_ik|² ≤ A_kk A_ii, A_kk = r² and A_ik = L_kk · left
+            let left = (below - side * v[i]).abs();
             let row_norm = l[i * stride..=i * stride + i].iter().fold(v[i].abs(), |m, &x| m.max(x.abs()));
-            let allowed = (rounding * size).sqrt() * (row_norm + row_norm);
-            health.note(spent & !left.abs().le(allowed), k);
+            let allowed = (rounding / size).sqrt() * (row_norm + row_norm);
+            health.note(spent & !left.le(allowed), k);
             let x = (below - s * v[i]) / c;
             v[i] = T::select(spent, zero, c * v[i] - s * x);
             l[i * stride + k] = T::select(cleared, zero, x);
@@ -73,8 +74,7 @@ fn fold<T: Real>(l: &mut [T], n: usize, stride: usize, k: usize, absent: T::Mask
         }
         let diagonal = l[i * stride + i];
         let norm = diagonal.hypot(below);
-        let (c, s) =
-            (T::select(still, T::one(), diagonal / norm), T::select(still, T::zero(), below / norm));
+        let (c, s) = (T::select(still, T::one(), diagonal / norm), T::select(still, T::zero(), below / norm));
         for row in l.chunks_mut(stride).take(n).skip(i) {
             let (x, y) = (row[i], row[k]);
             row[i] = s.mul_add(y, c * x);
@@ -87,7 +87,7 @@ fn fold<T: Real>(l: &mut [T], n: usize, stride: usize, k: usize, absent: T::Mask
 mod tests {
     #[test]
     fn a_pivot_of_rounding_does_not_take_its_column_with_it() {
-        let mut l = [1.0, 0.0, 0.0, 2.0, 1e-17, 0.0, 3.0, 4.0, 5.0];
+        let mut l = [1.0_f64, 0.0, 0.0, 2.0, 1e-17, 0.0, 3.0, 4.0, 5.0];
         let mut v = [0.0, 1e-17, 1.0];
         assert!(super::downdate(&mut l, 3, 3, &mut v).failed().is_none());
         assert_eq!((l[4], l[7]), (0.0, 0.0));
@@ -101,5 +101,24 @@ mod tests {
         let mut v = [0.0, 1.0];
         assert!(super::downdate(&mut l, 2, 2, &mut v).failed().is_none());
         assert!((l[3] - 3.0f64.sqrt()).abs() < 1e-15);
+    }
+    #[test]
+    fn a_column_that_does_not_cancel_is_a_failure_whatever_its_sign() {
+        // [1 1; 1 2] − [1 −1; −1 1] = [0 2; 2 1]
+        assert_eq!(super::downdate(&mut [1.0, 0.0, 1.0, 1.0], 2, 2, &mut [1.0, -1.0]).failed(), Some(0));
+        let mut l = [1.0, 0.0, -1.0, 1.0];
+        assert!(super::downdate(&mut l, 2, 2, &mut [-1.0, 1.0]).failed().is_none());
+        assert_eq!(l, [0.0, 0.0, 0.0, 1.0]);
+    }
+
+    #[test]
+    fn units_do_not_decide_what_is_zero() {
+        for unit in [1e-9, 1.0, 1e9] {
+            let fails = |left: f64| {
+                let mut v = [unit, unit * (1.0 - left)];
+                super::downdate(&mut [unit, 0.0, unit, unit], 2, 2, &mut v).failed().is_some()
+            };
+            assert!(!fails(1e-8) && fails(1e-5), "{unit}");
+        }
     }
 }

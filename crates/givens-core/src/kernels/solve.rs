@@ -1,4 +1,4 @@
-//! Substitution with triangular factors; a zero pivot gives a zero (`spec` §0: the generalised inverse).
+//! Substitution with triangular factors; a zero pivot gives a zero (docs/algorithms.md §2: the generalised inverse).
 
 use crate::scalar::Real;
 

@@ -8,7 +8,7 @@ use crate::scalar::{Mask, Real};
 ///
 /// The square matrix `a` of d + n rows of that length becomes [T11 0; T21 T22], lower triangular, with diagonal
 /// ≥ 0 if those of L and S are. Every row of D is rotated into its pivot from the last column to the first, which
-/// leaves S triangular throughout; all cosines of a row come from one running sum of squares (`speed`). It is the
+/// leaves S triangular throughout; all cosines of a row come from one running sum of squares. It is the
 /// measurement update (2010 eq 36) and the smoothing step (2011 Table 3). A row that the earlier ones leave
 /// at most (d + n) ε of is zero; its pivot and column are then zero, as in [`tria`](super::tria()). So is one that
 /// they leave no more of than the errors of the rows so far add up to, if `rounding` tells these (length d, or empty):

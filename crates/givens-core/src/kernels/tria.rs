@@ -3,7 +3,7 @@
 use super::Health;
 use crate::scalar::{Mask, Real};
 
-/// Tria(A): the lower-triangular S with S Sᵀ = A Aᵀ and diagonal ≥ 0, in place (`spec` §0).
+/// Tria(A): the lower-triangular S with S Sᵀ = A Aᵀ and diagonal ≥ 0, in place (docs/algorithms.md §2).
 ///
 /// `a` holds `rows` × `columns` in rows of length `stride` ≥ max(rows, columns); S ends in its first `rows`
 /// columns, zeros behind it. What is left of a row after the earlier reflections and is at most

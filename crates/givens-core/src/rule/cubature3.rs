@@ -2,7 +2,7 @@
 
 use super::{Pairs, PointRule};
 
-/// 2n points ±√n e_i of weight 1/(2n): exact for all monomials of degree 3 (2009 eq 33).
+/// 2n points ±√n e_i of weight 1/(2n): exact for all monomials of degree 3 (2009 §IV-D).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Cubature3;
 

@@ -1,4 +1,4 @@
-//! Rules: how the moments of g(x), x ~ N(m, S Sᵀ), are computed (`spec` §1).
+//! Rules: how the moments of g(x), x ~ N(m, S Sᵀ), are computed (docs/algorithms.md §3).
 //!
 //! Every rule answers with a [`Spread`]: the mean of g, the part D of its spread that moves with S, and the rest E,
 //! so that cov(g) = D Dᵀ + E J Eᵀ and cov(x, g) = S Dᵀ, J the signs of the rest's columns. For a rule of points, D is
@@ -41,7 +41,7 @@ pub struct Shape {
 /// What a rule learns of y = g(x), written into the caller's memory.
 #[derive(Debug)]
 pub struct Spread<'a, T> {
-    /// E[g], length d.
+    /// E\[g\], length d.
     pub mean: &'a mut [T],
     /// d rows of length `stride`: D in columns 0…n, the positive columns of E behind it; the caller's own beyond.
     pub dev: &'a mut [T],

@@ -22,7 +22,7 @@ impl<T: Real> Images<'_, T> {
 }
 
 /// Evaluates `g` at m ± `offset(i, l)`, l = 0…pairs, and at m if `centred` or if `g` has an angle; then moves every
-/// image of an angle once to the reference g(m) (`spec` §2).
+/// image of an angle once to the reference g(m) (docs/algorithms.md §5).
 #[inline(always)]
 pub(super) fn evaluate<'a, T: Real, G: Map>(
     g: &G,

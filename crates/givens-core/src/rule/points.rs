@@ -25,7 +25,7 @@ pub enum Pairs {
     },
 }
 
-/// A rule that is a set of weighted unit points, symmetric about zero: E[g] ≈ Σ w_i g(m + S ξ_i).
+/// A rule that is a set of weighted unit points, symmetric about zero: E\[g\] ≈ Σ w_i g(m + S ξ_i).
 ///
 /// The points integrate quadratics: Σ w_i ξ_i ξ_iᵀ = I. A new rule implements this trait and nothing else.
 pub trait PointRule: Copy {

@@ -4,7 +4,7 @@ use super::{Rule, RuleError, Shape, Spread};
 use crate::model::{At, Map};
 use crate::scalar::Real;
 
-/// E[g] ≈ g(m), D = J S with J = ∂g/∂x at m: exact for linear maps. An angle is wrapped in the innovation only.
+/// E\[g\] ≈ g(m), D = J S with J = ∂g/∂x at m: exact for linear maps. An angle is wrapped in the innovation only.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Taylor;
 

@@ -158,7 +158,7 @@ pub trait Real:
     fn sign(self) -> Self {
         let z = Self::zero();
         let side = Self::select(z.lt(self), Self::one(), -Self::one());
-        Self::select(z.lt(self) | self.lt(z), side, self)
+        Self::select(z.lt(self) | self.lt(z), side, self * z)
     }
     /// True in the lanes that hold a finite value.
     #[inline(always)]

@@ -75,9 +75,8 @@ pub fn step_back<T: Real, F: Form>(
     // the rounding of P_k is that of P⁻_k, and that of G (Pˢ − P⁻) Gᵀ is its terms'; both may be far above P_k
     for (i, s) in scale.iter_mut().enumerate() {
         let gain = passage.gain[i * n..(i + 1) * n].iter().enumerate();
-        let sigma = gain.fold(T::zero(), |sum, (j, &g)| {
-            g.abs().mul_add(passage.predicted_cov[j * n + j].sqrt(), sum)
-        });
+        let sigma = gain
+            .fold(T::zero(), |sum, (j, &g)| g.abs().mul_add(passage.predicted_cov[j * n + j].sqrt(), sum));
         let own = passage.before.get(i * n + i).unwrap_or(&passage.cov[i * n + i]);
         *s = own.max(sigma * sigma);
     }

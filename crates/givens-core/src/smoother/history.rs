@@ -1,6 +1,6 @@
 //! The record of a filter's time updates, in memory that the caller lends: all of them, or a ring of the last ones.
 
-use super::back::{Passage, back_scratch, step_back};
+use super::back::{Passage, back_scratch, mean_back, step_back};
 use crate::filter::memory::take;
 use crate::filter::{Belief, Fault, Filter, Form, Grow, Method, Prior, StepError};
 use crate::model::Transition;
@@ -58,7 +58,11 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
         let record = |n, square_root| Self::record_len(n, square_root);
         let fixed = Self::memory_len(self.states, self.square_root, 0);
         for (of, expected, found) in [
-            ("a record of the history", record(states, F::SQUARE_ROOT), record(self.states, self.square_root)),
+            (
+                "a record of the history",
+                record(states, F::SQUARE_ROOT),
+                record(self.states, self.square_root),
+            ),
             ("the history's memory", fixed, fixed.min(self.memory.as_mut().len())),
         ] {
             if expected != found {
@@ -164,6 +168,21 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
         self.go_back::<F>(start.time, skip, steps, visit)
     }
 
+    /// The means alone, by the gains alone (2011 §7, remark ii): `mean`, of length n, is that of the latest record's end,
+    /// and becomes the smoothed one at each earlier time in turn.
+    pub fn smooth_means(&mut self, mean: &mut [T], steps: usize, mut visit: impl FnMut(usize, &[T])) {
+        let (newest, capacity, count) = (self.oldest + self.count, self.capacity, self.count);
+        let (square_root, len) = (self.square_root, Self::record_len(self.states, self.square_root));
+        let (_, records, scratch) = self.carve(0);
+        visit(0, mean);
+        for age in 1..=steps.min(count) {
+            let slot = (newest - age) % capacity;
+            let passage = passage(&records[slot * len..(slot + 1) * len], mean.len(), square_root);
+            mean_back(&passage, mean, scratch);
+            visit(age, mean);
+        }
+    }
+
     /// The belief on its way back, the records, and scratch.
     fn carve(&mut self, square: usize) -> (Belief<'_, T>, &[T], &mut [T]) {
         let (n, len) = (self.states, Self::record_len(self.states, self.square_root));
@@ -193,21 +212,8 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
             &records[slot * len..(slot + 1) * len]
         };
         for age in 1..=steps.min(held) {
-            let mut record_left = record(age);
-            let mut next = |len: usize| {
-                let (head, tail) = record_left.split_at(len);
-                record_left = tail;
-                head
-            };
-            let passage = Passage {
-                mean: next(n),
-                cov: next(square),
-                before: if age < held { &record(age + 1)[2 * n + square..][..square] } else { &[] },
-                predicted_mean: next(n),
-                predicted_cov: next(square),
-                gain: next(n * n),
-                conditional: next(n * n - square),
-            };
+            let before = if age < held { &record(age + 1)[2 * n + square..][..square] } else { &[] };
+            let passage = Passage { before, ..passage(record(age), n, F::SQUARE_ROOT) };
             step_back::<T, F>(&passage, &mut belief, rest).map_err(|fault| StepError {
                 fault,
                 time,
@@ -228,4 +234,23 @@ pub(super) fn for_smoothing<X: Method, M: Transition, T: Real, C: Grow<T>>(
         return Ok(());
     }
     Err(Fault::Length { of: "the gain of a filter that was not started for smoothing", expected, found })
+}
+
+/// The arrays of one record.
+fn passage<T>(mut record: &[T], n: usize, square_root: bool) -> Passage<'_, T> {
+    let square = if square_root { 0 } else { n * n };
+    let mut next = |len: usize| {
+        let (head, tail) = record.split_at(len);
+        record = tail;
+        head
+    };
+    Passage {
+        mean: next(n),
+        cov: next(square),
+        before: &[],
+        predicted_mean: next(n),
+        predicted_cov: next(square),
+        gain: next(n * n),
+        conditional: next(n * n - square),
+    }
 }

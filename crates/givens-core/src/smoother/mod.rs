@@ -1,4 +1,4 @@
-//! Smoothers: backward passes over what a filter recorded (`spec` §6).
+//! Smoothers: backward passes over what a filter recorded (docs/algorithms.md §6).
 //!
 //! A [`History`] records the time updates of a filter, all of them or the last L; [`History::smooth`] goes back over
 //! them (fixed interval, and fixed lag over a ring). [`FixedPoint`] carries one past state forward instead.

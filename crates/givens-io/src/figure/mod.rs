@@ -23,6 +23,8 @@
 //! assert!(givens_io::figure::svg(&figure).starts_with("<svg"));
 //! ```
 
+#[cfg(test)]
+mod any_data;
 mod clip;
 mod colour;
 mod decimate;

@@ -44,6 +44,10 @@ pub(super) fn read(context: &mut Context, section: &Section, states: &[String]) 
         next: next?,
         noise_cov: noise_cov?,
     };
+    if parts.parameters.iter().any(|value| !value.is_finite()) {
+        // told where the parameter stands
+        return None;
+    }
     match ModelTransition::new(&mut context.graph, parts) {
         Ok(transition) => Some(transition),
         Err(error) => {

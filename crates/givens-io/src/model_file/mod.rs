@@ -17,7 +17,7 @@ mod start;
 mod state;
 mod vocabulary;
 
-pub use beginning::Beginning;
+pub use beginning::{BeginError, Beginning};
 pub use filter::{FilterSettings, Setting, SettingValue};
 pub use sensor::Sensor;
 pub use start::Start;

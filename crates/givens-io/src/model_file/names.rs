@@ -50,7 +50,7 @@ fn refused(name: &str, used: Use) -> Option<(String, String)> {
     if matches!(name, "and" | "or" | "not") {
         return reserved("an operator");
     }
-    if is_reserved(name) || name == "rate" {
+    if is_reserved(name) {
         return reserved("a function");
     }
     if name.starts_with("u_") {

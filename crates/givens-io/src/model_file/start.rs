@@ -70,7 +70,10 @@ pub(super) fn read(context: &mut Context, section: &Section, states: &[String]) 
 /// Two-point differencing is not there yet; this is told plainly.
 fn rate(context: &Context, value: &Value) -> bool {
     let Kind::Text(text, _) = &value.kind else { return false };
-    let Some((span, _)) = names(text).find(|(_, name)| *name == "rate") else { return false };
+    // a state or a parameter may have this name: only with arguments is it the function
+    let called = |end: usize| text.get(end..).is_some_and(|rest| rest.trim_start().starts_with('('));
+    let found = names(text).find(|(span, name)| *name == "rate" && called(span.end));
+    let Some((span, _)) = found else { return false };
     let message = "`rate`, a state from the first two rows, is not in this version yet";
     let help = "leave the state out of `start` and give it `mean` and `std`";
     context.findings.wrong_help(&value.within(&span), message, help);

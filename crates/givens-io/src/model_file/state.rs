@@ -167,7 +167,16 @@ fn diagonal(context: &mut Context, value: &Value, names: &[String], what: &str) 
     let mut matrix = vec![0.0; n * n];
     for (i, node) in nodes.into_iter().enumerate() {
         let deviation = context.known(node)?;
-        matrix[i * n + i] = deviation * deviation;
+        let variance = deviation * deviation;
+        if variance.is_infinite() || (deviation > 0.0 && !variance.is_normal()) {
+            let message = format!(
+                "{what} of `{}`: the square of {deviation:e} is beyond the range of numbers",
+                names[i]
+            );
+            context.findings.wrong_help(&values[i].span, message, "choose another unit for the state");
+            return None;
+        }
+        matrix[i * n + i] = variance;
     }
     Some(matrix)
 }

@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use super::{Line, digits};
+use super::{Line, digits, told};
 use crate::model_file::Model;
 use crate::table::Tracks;
 
@@ -14,7 +14,7 @@ pub(super) fn write(out: &mut dyn Write, model: &Model, tracks: &Tracks, lines: 
     header.extend(model.states.iter().cloned());
     header.extend(model.states.iter().map(|name| format!("{name}_std")));
     header.extend(["nis", "nis_dof", "log_likelihood"].map(str::to_owned));
-    table.write_record(&header)?;
+    table.write_record(&header).map_err(told)?;
     let n = model.states.len();
     let mut cells: Vec<String> = Vec::with_capacity(header.len());
     for line in lines {
@@ -34,7 +34,7 @@ pub(super) fn write(out: &mut dyn Write, model: &Model, tracks: &Tracks, lines: 
             }
             None => cells.resize(header.len(), String::new()),
         }
-        table.write_record(&cells)?;
+        table.write_record(&cells).map_err(told)?;
     }
     table.flush()
 }

@@ -1,6 +1,6 @@
 //! A file that appears whole or not at all.
 
-use std::fs::{self, File};
+use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
@@ -8,7 +8,10 @@ use std::path::{Path, PathBuf};
 #[derive(Debug)]
 pub struct Destination {
     path: PathBuf,
-    partial: PathBuf,
+    /// What `path` leads to.
+    target: PathBuf,
+    /// Where it is written before; none for a device.
+    partial: Option<PathBuf>,
     file: Option<BufWriter<File>>,
 }
 
@@ -39,23 +42,39 @@ impl core::error::Error for DestinationError {
 }
 
 impl Destination {
-    /// Opens `PATH.partial`.
+    /// Opens `PATH.partial`. A device, such as a terminal, is written as it is; behind a link, the file it leads to.
     ///
     /// # Errors
     /// A path that cannot be written, or that is a folder.
     pub fn create(path: impl AsRef<Path>) -> Result<Self, DestinationError> {
         let path = path.as_ref().to_owned();
-        let mut partial = path.clone().into_os_string();
-        partial.push(".partial");
-        let partial = PathBuf::from(partial);
-        if path.is_dir() {
-            let source = io::Error::new(io::ErrorKind::IsADirectory, "it is a folder");
-            return Err(DestinationError { path, source });
-        }
-        match File::create(&partial) {
-            Ok(file) => Ok(Self { path, partial, file: Some(BufWriter::new(file)) }),
+        match Self::open(&path) {
+            Ok((target, partial, file)) => {
+                Ok(Self { path, target, partial, file: Some(BufWriter::new(file)) })
+            }
             Err(source) => Err(DestinationError { path, source }),
         }
+    }
+
+    fn open(path: &Path) -> io::Result<(PathBuf, Option<PathBuf>, File)> {
+        let found = path.metadata().ok();
+        if found.as_ref().is_some_and(fs::Metadata::is_dir) {
+            return Err(io::Error::new(io::ErrorKind::IsADirectory, "it is a folder"));
+        }
+        if found.as_ref().is_some_and(|found| !found.is_file()) {
+            return Ok((path.to_owned(), None, OpenOptions::new().write(true).open(path)?));
+        }
+        let target = if found.is_some() { path.canonicalize()? } else { path.to_owned() };
+        let mut partial = target.clone().into_os_string();
+        partial.push(".partial");
+        let partial = PathBuf::from(partial);
+        let file = File::create(&partial)?;
+        Ok((target, Some(partial), file))
+    }
+
+    /// The file as the user named it.
+    pub fn path(&self) -> &Path {
+        &self.path
     }
 
     /// Gives the finished file its name.
@@ -65,7 +84,10 @@ impl Destination {
     pub fn finish(mut self) -> Result<(), DestinationError> {
         let Some(file) = self.file.take() else { return Ok(()) };
         let done = file.into_inner().map_err(io::IntoInnerError::into_error);
-        let done = done.and_then(|file| file.sync_all()).and_then(|()| fs::rename(&self.partial, &self.path));
+        let done = done.and_then(|file| match &self.partial {
+            Some(partial) => file.sync_all().and_then(|()| fs::rename(partial, &self.target)),
+            None => Ok(()),
+        });
         done.map_err(|source| DestinationError { path: self.path.clone(), source })
     }
 }
@@ -82,8 +104,8 @@ impl Write for Destination {
 impl Drop for Destination {
     /// A file that was not finished leaves nothing behind.
     fn drop(&mut self) {
-        if self.file.take().is_some() {
-            let _ = fs::remove_file(&self.partial);
+        if let (Some(_), Some(partial)) = (self.file.take(), &self.partial) {
+            let _ = fs::remove_file(partial);
         }
     }
 }

@@ -1,94 +1,99 @@
-//! Answers as JSON lines: one object per row, numbers that read back exactly, null where there is none.
+//! Answers as JSON lines: one object per row, its keys in one order, numbers that read back exactly, null where there
+//! is none.
 
 use std::io::{self, Write};
 
 use givens::Estimates;
-use serde_json::{Map, Value, json};
+use serde::ser::{Serialize, SerializeMap, Serializer};
 
 use super::Line;
 use crate::model_file::Model;
 
-pub(super) fn write(out: &mut dyn Write, model: &Model, lines: &[Line]) -> io::Result<()> {
+pub(super) fn write(out: &mut dyn Write, model: &Model, smoothed: bool, lines: &[Line]) -> io::Result<()> {
     let columns: Vec<&str> =
         model.sensors.iter().flat_map(|sensor| sensor.columns.iter().map(String::as_str)).collect();
     for line in lines {
-        serde_json::to_writer(&mut *out, &object(&columns, line))?;
+        serde_json::to_writer(&mut *out, &Object { columns: &columns, smoothed, line })?;
         out.write_all(b"\n")?;
     }
     Ok(())
 }
 
-/// A number; null if it is none.
-fn number(x: f64) -> Value {
-    serde_json::Number::from_f64(x).map_or(Value::Null, Value::Number)
+/// One row of output.
+struct Object<'a> {
+    columns: &'a [&'a str],
+    /// Whether the filtered belief stands beside the smoothed one.
+    smoothed: bool,
+    line: &'a Line<'a>,
 }
 
-fn vector(values: &[f64]) -> Value {
-    values.iter().map(|&x| number(x)).collect()
-}
-
-/// The rows and columns of `keep`, of a matrix of `size` × `size`.
-fn block(matrix: &[f64], size: usize, keep: &[usize]) -> Value {
-    keep.iter().map(|&i| keep.iter().map(|&j| number(matrix[i * size + j])).collect::<Value>()).collect()
-}
-
-fn matrix(values: &[f64], size: usize) -> Value {
-    values.chunks_exact(size.max(1)).map(vector).collect()
-}
-
-fn object(columns: &[&str], line: &Line) -> Map<String, Value> {
-    let mut object = Map::new();
-    let mut put = |key: &str, value: Value| object.insert(key.to_owned(), value);
-    let text = &line.row.time_text;
-    put("time", text.parse().map_or_else(|_| json!(text), number));
-    put("track_id", json!(line.track));
-    put("sensor", json!(line.sensor));
-    let Some((est, k)) = line.estimate else {
-        for key in KEYS {
-            put(key, Value::Null);
+impl Serialize for Object<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let Self { columns, smoothed, line } = *self;
+        let mut map = serializer.serialize_map(None)?;
+        let text = &line.row.time_text;
+        match text.parse::<f64>() {
+            Ok(seconds) => map.serialize_entry("time", &seconds)?,
+            Err(_) => map.serialize_entry("time", text)?,
         }
-        return object;
-    };
-    let n = est.states();
-    put("mean", vector(est.mean(k)));
-    put("cov", matrix(est.cov(k), n));
-    if est.is_smoothed() {
-        put("filtered_mean", vector(est.filtered_mean(k)));
-        put("filtered_cov", matrix(est.filtered_cov(k), n));
-    }
-    if line.started {
-        for key in &KEYS[2..] {
-            put(key, Value::Null);
+        map.serialize_entry("track_id", &line.track)?;
+        map.serialize_entry("sensor", &line.sensor)?;
+        let estimate = line.estimate;
+        map.serialize_entry("mean", &estimate.map(|(est, k)| est.mean(k)))?;
+        map.serialize_entry("cov", &estimate.map(|(est, k)| square(est, est.cov(k))))?;
+        if smoothed {
+            map.serialize_entry("filtered_mean", &estimate.map(|(est, k)| est.filtered_mean(k)))?;
+            map.serialize_entry("filtered_cov", &estimate.map(|(est, k)| square(est, est.filtered_cov(k))))?;
         }
-        return object;
+        // the row that `start` has read was neither predicted nor measured
+        let stepped = estimate.filter(|_| !line.started);
+        map.serialize_entry("predicted_mean", &stepped.map(|(est, k)| est.predicted_mean(k)))?;
+        map.serialize_entry("predicted_cov", &stepped.map(|(est, k)| square(est, est.predicted_cov(k))))?;
+        let there = stepped.map(|(est, k)| present(est, k));
+        let names = |there: &Vec<usize>| -> Vec<&str> {
+            there.iter().filter_map(|&i| columns.get(i).copied()).collect()
+        };
+        map.serialize_entry("measures", &there.as_ref().map(names))?;
+        let innovation = stepped.zip(there.as_ref()).map(|((est, k), there)| {
+            let nu = est.innovation(k);
+            there.iter().map(|&i| nu[i]).collect::<Vec<f64>>()
+        });
+        map.serialize_entry("innovation", &innovation)?;
+        let covariance = stepped.zip(there.as_ref()).map(|((est, k), there)| Block {
+            matrix: est.innovation_cov(k),
+            size: est.measures(),
+            keep: there,
+        });
+        map.serialize_entry("innovation_cov", &covariance)?;
+        map.serialize_entry("nis", &stepped.map(|(est, k)| est.nis[k]))?;
+        map.serialize_entry("nis_dof", &stepped.map(|(est, k)| est.nis_dof[k]))?;
+        map.serialize_entry("log_likelihood", &stepped.map(|(est, k)| est.log_likelihood[k]))?;
+        map.end()
     }
-    put("predicted_mean", vector(est.predicted_mean(k)));
-    put("predicted_cov", matrix(est.predicted_cov(k), n));
-    measured(columns, est, k, put);
-    object
 }
 
-/// What every object has beside time, track and sensor.
-const KEYS: [&str; 10] = [
-    "mean",
-    "cov",
-    "predicted_mean",
-    "predicted_cov",
-    "measures",
-    "innovation",
-    "innovation_cov",
-    "nis",
-    "nis_dof",
-    "log_likelihood",
-];
-
-fn measured<R>(columns: &[&str], est: &Estimates, k: usize, mut put: impl FnMut(&str, Value) -> R) {
+/// The components of the measurement that a row brought.
+fn present(est: &Estimates, k: usize) -> Vec<usize> {
     let innovation = est.innovation(k);
-    let there: Vec<usize> = (0..innovation.len()).filter(|&i| !innovation[i].is_nan()).collect();
-    put("measures", there.iter().map(|&i| columns.get(i).copied()).collect());
-    put("innovation", there.iter().map(|&i| number(innovation[i])).collect());
-    put("innovation_cov", block(est.innovation_cov(k), est.measures(), &there));
-    put("nis", number(est.nis[k]));
-    put("nis_dof", json!(est.nis_dof[k]));
-    put("log_likelihood", number(est.log_likelihood[k]));
+    (0..innovation.len()).filter(|&i| !innovation[i].is_nan()).collect()
+}
+
+/// The rows of a covariance of the state.
+fn square<'a>(est: &Estimates, cov: &'a [f64]) -> Vec<&'a [f64]> {
+    cov.chunks_exact(est.states().max(1)).collect()
+}
+
+/// The rows and columns `keep` of a matrix of `size` × `size`.
+struct Block<'a> {
+    matrix: &'a [f64],
+    size: usize,
+    keep: &'a [usize],
+}
+
+impl Serialize for Block<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let row =
+            |i: &usize| -> Vec<f64> { self.keep.iter().map(|j| self.matrix[i * self.size + j]).collect() };
+        serializer.collect_seq(self.keep.iter().map(row))
+    }
 }

@@ -52,6 +52,14 @@ fn digits(x: f64) -> String {
     if plain { x.to_string() } else { format!("{x:e}") }
 }
 
+/// What the writer under a table said; in the error of the table its kind would be lost.
+fn told(error: ::csv::Error) -> io::Error {
+    match error.into_kind() {
+        ::csv::ErrorKind::Io(error) => error,
+        other => io::Error::other(format!("{other:?}")),
+    }
+}
+
 /// Writes the answers, one for each of the tracks, as one table in the order of the rows.
 ///
 /// # Errors
@@ -77,6 +85,9 @@ pub fn write_answers(
     lines.sort_by_key(|line| line.row.index);
     match format {
         Format::Csv => csv::write(out, model, tracks, &lines),
-        Format::Jsonl => jsonl::write(out, model, &lines),
+        Format::Jsonl => {
+            let smoothed = answers.iter().any(|answer| answer.estimates.is_smoothed());
+            jsonl::write(out, model, smoothed, &lines)
+        }
     }
 }

@@ -16,6 +16,8 @@ pub(super) struct Columns {
     pub controls: Vec<usize>,
     /// One for each measure of the stack; none for the sensors that the table lacks.
     pub measures: Vec<Option<usize>>,
+    /// Whether the measures were looked for.
+    pub measured: bool,
     /// For each measure, whether another sensor of the table has the same column.
     pub shared: Vec<bool>,
     /// Names of the columns that mean nothing to the model.
@@ -47,7 +49,22 @@ pub(super) fn columns(sheet: &Sheet, model: &Model, measured: bool) -> Option<Co
     );
     let ignored = ignored.collect();
     let found = complete && !ambiguous && controls.len() == model.controls.len();
-    time.filter(|_| found).map(|time| Columns { time, track, sensor, controls, measures, shared, ignored })
+    time.filter(|_| found).map(|time| Columns {
+        time,
+        track,
+        sensor,
+        controls,
+        measures,
+        measured,
+        shared,
+        ignored,
+    })
+}
+
+/// Whether a column bears the name of a measure.
+pub(super) fn names_measures(sheet: &Sheet, model: &Model) -> bool {
+    let mut columns = model.sensors.iter().flat_map(|sensor| &sensor.columns);
+    columns.any(|name| sheet.column(name).is_some())
 }
 
 /// The column `time`.

@@ -102,7 +102,9 @@ pub fn read_tracks(path: &str, model: &Model) -> Result<Tracks, InputErrors> {
     tracks(&Source::read(path)?, model, true)
 }
 
-/// Reads a table that need only bring times, and the controls of the model if it has some: `z` is all NaN.
+/// Reads a table of rows to simulate, which need only bring times, and the controls of the model if it has some. `z` is
+/// NaN where a row shall have no measure: if the table has columns of measures, where their cells are empty; if not,
+/// at the measures of other sensors than the one that the row names.
 ///
 /// # Errors
 /// As [`read_tracks`].

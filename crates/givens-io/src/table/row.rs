@@ -23,6 +23,7 @@ pub(super) struct Raw {
 pub(super) fn tracks(findings: &Findings, model: &Model, measured: bool) -> Option<Tracks> {
     let known = if measured { "time and the measures" } else { "time" };
     let mut sheet = Sheet::open(findings, known)?;
+    let measured = measured || header::names_measures(&sheet, model);
     let columns = header::columns(&sheet, model, measured)?;
     let mut ids: Vec<Option<String>> = Vec::new();
     let mut rows: Vec<Vec<Raw>> = Vec::new();
@@ -95,7 +96,11 @@ fn row(
         })
         .collect();
     let sensor = sensor(findings, fields, columns, model).ok()?;
-    let z = measures(findings, fields, columns, model, sensor);
+    let z = if columns.measured {
+        measures(findings, fields, columns, model, sensor)
+    } else {
+        asked(findings, fields, model, sensor)
+    };
     let time = time?;
     let row = Row {
         line: fields.line(),
@@ -137,6 +142,24 @@ fn sensor(
         return Err(Found);
     };
     Ok(Some(index))
+}
+
+/// A zero for each measure that a row of a table of times asks for: those of its sensor, or all.
+fn asked(findings: &Findings, fields: &Fields, model: &Model, sensor: Option<usize>) -> Vec<f64> {
+    let own = sensor.and_then(|index| model.sensors.get(index));
+    if let (None, Some(name)) = (own, shared_column(model)) {
+        let message = format!("the sensors share the column `{name}`, and this row names none");
+        findings.wrong_help(&fields.span(0), message, "name a `sensor` in each row");
+    }
+    let asks = |index: &usize| own.is_none_or(|own| own.measures.contains(index));
+    (0..model.measures()).map(|index| if asks(&index) { 0.0 } else { f64::NAN }).collect()
+}
+
+/// A column that belongs to several sensors.
+fn shared_column(model: &Model) -> Option<&str> {
+    let mut seen = std::collections::HashSet::new();
+    let mut names = model.sensors.iter().flat_map(|sensor| &sensor.columns);
+    names.find(|name| !seen.insert(name.as_str())).map(String::as_str)
 }
 
 /// The measures that a row brings; values that its sensor does not have are found wrong.

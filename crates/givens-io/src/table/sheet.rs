@@ -33,7 +33,7 @@ impl<'a> Sheet<'a> {
         let mut record = csv::StringRecord::new();
         if source.text.trim().is_empty() || !read(&mut reader, &mut record) {
             let help = format!("the first line names the columns: {columns}");
-            findings.push(source.whole("the file is empty").with_help(help));
+            findings.push(source.whole("the table is empty").with_help(help));
             return None;
         }
         let header: Vec<String> = record.iter().map(|name| name.trim().to_string()).collect();

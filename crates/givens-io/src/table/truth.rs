@@ -1,5 +1,7 @@
 //! Tables of true states.
 
+use std::collections::HashMap;
+
 use givens_expr::suggest;
 
 use super::cell::{Cell, number, short};
@@ -61,9 +63,11 @@ fn truth(findings: &Findings, model: &Model, tracks: &Tracks) -> Option<Truth> {
         lines: Vec::new(),
         ignored: ignored.collect(),
     };
+    let named = tracks.tracks.iter().enumerate();
+    let named = named.filter_map(|(index, track)| Some((track.id.as_deref()?, index))).collect();
     let mut latest: Vec<Option<(f64, usize)>> = vec![None; tracks.tracks.len()];
     while let Some(fields) = sheet.next_row() {
-        let Some(index) = track(findings, &fields, ids, tracks) else { continue };
+        let Some(index) = track(findings, &fields, ids, &named) else { continue };
         let Some(track) = tracks.tracks.get(index) else { continue };
         let Some(time) = on_axis(findings, &fields, time_column, track) else { continue };
         if let Some(latest) = latest.get_mut(index) {
@@ -121,12 +125,18 @@ fn unlike(sheet: &Sheet, ids: Option<usize>, tracks: &Tracks) {
     }
 }
 
-fn track(findings: &Findings, fields: &Fields, ids: Option<usize>, tracks: &Tracks) -> Option<usize> {
+/// The index of a row's track, by its name among those of the data.
+fn track(
+    findings: &Findings,
+    fields: &Fields,
+    ids: Option<usize>,
+    named: &HashMap<&str, usize>,
+) -> Option<usize> {
     let Some(column) = ids else { return Some(0) };
     let id = track_id(findings, fields, column)?;
-    let found = tracks.tracks.iter().position(|track| track.id.as_deref() == Some(id));
+    let found = named.get(id).copied();
     if found.is_none() {
-        let near = suggest(id, tracks.tracks.iter().filter_map(|track| track.id.as_deref()));
+        let near = suggest(id, named.keys().copied());
         let help = near.map(|near| format!("did you mean `{near}`?"));
         findings.wrong_maybe(&fields.span(column), format!("the data have no track `{}`", short(id)), help);
     }

@@ -64,8 +64,8 @@ fn slips_in_expressions_are_told_within_the_string() {
         Case("hypot(x, y)", "hypot(x)", (9, 6), "in `r`", "hypot(x, y)"),
         Case("hypot(x, y)", "range", (9, 6), "unknown name `range` in `r`", ""),
         Case("\"atan2(y, x)\"", "\"x > 0\"", (15, 38), "condition", "where"),
-        Case("\"hypot(x, y)\"", "'''\nhypot(x, yy)'''", (10, 10), "unknown name `yy` in `r`", "known are"),
-        Case("\"hypot(x, y)\"", "\"h\\u0079pot(x, yy)\"", (9, 5), "unknown name `yy` in `r`", "known are"),
+        Case("\"hypot(x, y)\"", "'''\nhypot(x, yy)'''", (10, 10), "unknown name `yy` in `r`", "known here"),
+        Case("\"hypot(x, y)\"", "\"h\\u0079pot(x, yy)\"", (9, 5), "unknown name `yy` in `r`", "known here"),
     ]);
 }
 

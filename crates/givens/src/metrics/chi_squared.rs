@@ -11,23 +11,26 @@ use statrs::distribution::{ChiSquared, ContinuousCDF};
 /// ```
 pub fn chi_squared_quantile(dof: f64, p: f64) -> f64 {
     match ChiSquared::new(dof) {
-        Ok(distribution) if (0.0..=1.0).contains(&p) => polish(&distribution, distribution.inverse_cdf(p), p),
+        Ok(_) if p == 0.0 => 0.0,
+        Ok(_) if p == 1.0 => f64::INFINITY,
+        Ok(distribution) if (0.0..1.0).contains(&p) => bisect(&distribution, dof, p),
         _ => f64::NAN,
     }
 }
 
-/// Newton steps on a quantile: a generic inverse stops after a few digits.
-fn polish(distribution: &ChiSquared, start: f64, p: f64) -> f64 {
-    use statrs::distribution::Continuous;
-    let mut x = start;
-    for _ in 0..4 {
-        let slope = distribution.pdf(x);
-        let next = x - (distribution.cdf(x) - p) / slope;
-        if slope > 0.0 && next.is_finite() && next > 0.0 {
-            x = next;
-        }
+/// The quantile between doubles next to each other: a generic inverse stops after a few digits, or runs below zero.
+fn bisect(distribution: &ChiSquared, dof: f64, p: f64) -> f64 {
+    let (mut low, mut high) = (0.0, dof.max(1.0));
+    while distribution.cdf(high) < p && high.is_finite() {
+        (low, high) = (high, 2.0 * high);
     }
-    x
+    loop {
+        let middle = low + (high - low) / 2.0;
+        if middle <= low || middle >= high || high < f64::MIN_POSITIVE {
+            return high;
+        }
+        if distribution.cdf(middle) < p { low = middle } else { high = middle }
+    }
 }
 
 /// The probability that a χ² variable of `dof` degrees of freedom stays below `x`; NaN for no degrees of freedom.
@@ -38,4 +41,33 @@ pub fn chi_squared_cdf(dof: f64, x: f64) -> f64 {
 /// The central 95 % band of a χ² variable of `dof` degrees of freedom.
 pub fn chi_squared_band(dof: f64) -> (f64, f64) {
     (chi_squared_quantile(dof, 0.025), chi_squared_quantile(dof, 0.975))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{chi_squared_band, chi_squared_cdf, chi_squared_quantile};
+
+    #[test]
+    fn quantiles_are_those_of_the_tables() {
+        for (dof, p, expected) in [
+            (1.0, 0.025, 9.820_691_171_752_59e-4),
+            (1.0, 0.975, 5.023_886_187_314_888),
+            (2.0, 0.025, 0.050_635_615_968_579_75),
+            (10.0, 0.975, 20.483_177_350_807_388),
+        ] {
+            let found = chi_squared_quantile(dof, p);
+            assert!((found / expected - 1.0).abs() < 1e-9, "{dof} {p}: {found}");
+        }
+        assert_eq!(chi_squared_quantile(3.0, 0.0), 0.0);
+        assert!(chi_squared_quantile(0.0, 0.5).is_nan() && chi_squared_quantile(1.0, 1.5).is_nan());
+    }
+
+    #[test]
+    fn bands_exist_for_any_number_of_degrees() {
+        for dof in (1..200).map(f64::from).chain([1e4, 1e6, 1e7]) {
+            let (low, high) = chi_squared_band(dof);
+            assert!(low < dof && dof < high, "{dof}: {low} {high}");
+            assert!((chi_squared_cdf(dof, high) - 0.975).abs() < 1e-9, "{dof}");
+        }
+    }
 }

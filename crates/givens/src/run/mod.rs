@@ -32,7 +32,7 @@ impl core::error::Error for Failure {
     }
 }
 
-/// Filters a trajectory; `prior` holds at time `t0`.
+/// Filters a trajectory; `prior` holds at [`Data::start`]. Several sensors are a tuple.
 ///
 /// # Errors
 /// The first step that fails, with all rows before it.
@@ -41,13 +41,12 @@ pub fn filter<X: Method, M: Transition, H: Observation>(
     model: &M,
     sensors: &H,
     data: &Data,
-    t0: f64,
     prior: &Gaussian,
 ) -> Result<Estimates, Failure> {
-    run(*method, model, sensors, data.rows(), t0, prior, Goal::Filter).into_result()
+    run(*method, model, sensors, data.rows(), data.start(), prior, Goal::Filter).into_result()
 }
 
-/// Smooths a trajectory over all of its rows; `prior` holds at time `t0`. Several sensors are a tuple.
+/// Smooths a trajectory over all of its rows; `prior` holds at [`Data::start`]. Several sensors are a tuple.
 ///
 /// # Errors
 /// The first step that fails, with the rows before it, smoothed among themselves.
@@ -56,13 +55,12 @@ pub fn smooth<X: Method, M: Transition, H: Observation>(
     model: &M,
     sensors: &H,
     data: &Data,
-    t0: f64,
     prior: &Gaussian,
 ) -> Result<Estimates, Failure> {
-    run(*method, model, sensors, data.rows(), t0, prior, Goal::Interval).into_result()
+    run(*method, model, sensors, data.rows(), data.start(), prior, Goal::Interval).into_result()
 }
 
-/// Runs a method over rows in order of time, for any goal.
+/// Runs a method over rows in order of time, for any goal; `prior` holds at time `t0`.
 pub fn run<'a, X: Method, M: Transition, H: Observation>(
     method: X,
     model: &M,

@@ -215,8 +215,11 @@ pub(super) fn record<'a, X: Method, M: Transition, H: Observation>(
     }
     out.truncate(out.len());
     if let Err(error) = recorder.finish(out, outcome.failure.is_some()) {
-        // a smoothed covariance that does not exist: the filtered rows are no answer to the question
-        outcome.failure.get_or_insert((out.len().saturating_sub(1), error));
+        // a smoothed covariance that does not exist: the filtered rows are no answer to the question. The record that
+        // failed leads from its row, counted from one less, to the next
+        let row = error.step.saturating_sub(1).min(out.len().saturating_sub(1));
+        let time = out.time.get(row).copied().unwrap_or(error.time);
+        outcome.failure.get_or_insert((row, StepError { time, ..error }));
         out.truncate(0);
     }
 }

@@ -22,7 +22,7 @@ pub(super) const fn gain_scratch(n: usize, rest: usize) -> usize {
     n * wide + 4 * n * n + 4 * n
 }
 
-/// [U11 0; U21 U22] = Tria([D E S_Q; S 0 0]), G = U21/U11, conditional root U22 (2011 Table 3).
+/// [U11 0; U21 U22] = Tria([D E S_Q; S 0 0]), G = U21/U11, conditional root U22 (2011 Table 3; `docs/algorithms.md` S2).
 ///
 /// `size(i)` is the magnitude of the numbers whose differences make row i of `dev`: their rounding bounds what may be
 /// divided by.
@@ -119,7 +119,7 @@ pub(crate) const fn accumulate_scratch(n: usize) -> usize {
     3 * n * n
 }
 
-/// Chains a later step onto an earlier one (`spec` §6): D ← Tria([D  Γ D']), Γ ← Γ G'.
+/// Chains a later step onto an earlier one (docs/algorithms.md S3): D ← Tria([D  Γ D']), Γ ← Γ G'.
 ///
 /// Both hold n × n matrices; the conditional roots are empty in covariance form. `scratch` holds 3 n² scalars.
 #[inline(always)]

@@ -1,4 +1,4 @@
-//! One step of a discrete model: m⁻ = E[f(x)], P⁻ = Cov[f(x)] + Q (2009 eq 25–27; 2011 Tables 1, 3).
+//! One step of a discrete model: m⁻ = E[f(x)], P⁻ = Cov[f(x)] + Q (2009 eq 38–42; 2011 Tables 1, 3).
 
 use super::gain::{Backward, gain_of_covariance, gain_of_factor, gain_scratch};
 use super::lanes;

@@ -1,6 +1,8 @@
 //! The innovation: what the measurement said beyond the prediction, and how likely it was.
 
-use crate::scalar::Real;
+use crate::filter::error::{Fault, Quantity};
+use crate::kernels::solve_lower;
+use crate::scalar::{Mask, Real};
 
 /// ν = z − ẑ of the components that were there, its covariance, and what they say of the filter.
 #[derive(Clone, Copy, Debug)]
@@ -39,6 +41,18 @@ pub(crate) struct InnovationMut<'a, T> {
 }
 
 impl<T: Real> InnovationMut<'_, T> {
+    /// e = S_zz⁻¹ ν, whose square is NIS; `root` is S_zz in rows of length `stride`.
+    #[inline(always)]
+    pub fn whiten(&mut self, root: &[T], stride: usize, d: usize) -> Result<(), Fault> {
+        let white = &mut self.white[..d];
+        white.copy_from_slice(&self.nu[..d]);
+        solve_lower(root, stride, white);
+        match white.iter().position(|&e| (!(e * e).finite()).all()) {
+            Some(measure) => Err(Fault::NotFinite { quantity: Quantity::Innovation, component: measure }),
+            None => Ok(()),
+        }
+    }
+
     /// NIS and log-likelihood from the root and the whitened innovation of `d` components.
     #[inline(always)]
     pub fn score(&mut self, d: usize) {

@@ -5,7 +5,7 @@ use crate::filter::error::{Fault, Matrix};
 use crate::filter::form::Belief;
 use crate::filter::memory::{put_columns, take};
 use crate::filter::predict::split;
-use crate::kernels::{copy_lower, downdate, solve_lower, sweep, tria};
+use crate::kernels::{copy_lower, downdate, sweep, tria};
 use crate::scalar::{Mask, Real};
 
 /// Scalars of scratch of [`update`], for `rest` columns of E and noise.
@@ -49,8 +49,7 @@ pub(super) fn update<T: Real>(
     }
     sick = sick | pivots(block, size, d)?;
     copy_lower(innovation.factor, d, block, size);
-    innovation.white[..d].copy_from_slice(&innovation.nu[..d]);
-    solve_lower(block, size, &mut innovation.white[..d]);
+    innovation.whiten(block, size, d)?;
     for i in 0..n {
         let row = &block[(d + i) * size..(d + i + 1) * size];
         let shift = row.iter().zip(&innovation.white[..d]).fold(T::zero(), |sum, (&w, &e)| w.mul_add(e, sum));

@@ -9,11 +9,11 @@ mod separate;
 pub use innovation::Innovation;
 pub(crate) use innovation::InnovationMut;
 
-use super::error::Fault;
+use super::error::{Fault, Quantity};
 use super::form::{Belief, Form};
 use crate::model::{At, Observation};
 use crate::rule::{Rule, Shape, spread_scratch};
-use crate::scalar::Real;
+use crate::scalar::{Mask, Real};
 use sensed::{Sensed, sense, sense_scratch};
 
 /// The block that a square-root measurement update triangularises.
@@ -37,7 +37,7 @@ pub(crate) struct Measurement<'a, T> {
 pub(crate) const fn update_scratch(n: usize, d: usize, r: usize, shape: Shape, map: usize) -> usize {
     let joint = joint::joint_scratch(n, d, shape.plus + r);
     let separate = separate::separate_scratch(n, d, n + shape.plus + r);
-    let covariance = covariance::covariance_scratch(n, d);
+    let covariance = covariance::covariance_scratch(n, d, n + shape.plus + r, shape.minus);
     let mut block = if joint > separate { joint } else { separate };
     block = if covariance > block { covariance } else { block };
     let spread = spread_scratch(shape, n, d, map);
@@ -45,7 +45,7 @@ pub(crate) const fn update_scratch(n: usize, d: usize, r: usize, shape: Shape, m
 }
 
 /// Updates `belief` by a measurement, writes the innovation and returns how many components were there. With none,
-/// or after a fault, the belief is as before.
+/// or after a fault, the belief is as before (but for a mean that has overflowed).
 #[inline(always)]
 pub(crate) fn update<T: Real, H: Observation, R: Rule, F: Form>(
     rule: &R,
@@ -69,6 +69,9 @@ pub(crate) fn update<T: Real, H: Observation, R: Rule, F: Form>(
         (true, Block::Separate) => separate::update(&sensed, belief, innovation, scratch),
     };
     sick = sick | more.map_err(|fault| measurement.in_whole(fault))?;
+    if let Some(component) = belief.mean.iter().position(|m| (!m.finite()).all()) {
+        return Err(Fault::NotFinite { quantity: Quantity::Estimate, component });
+    }
     innovation.score(sensed.d);
     Ok((sensed.d, sick))
 }

@@ -30,6 +30,9 @@ impl<T> Measurement<'_, T> {
         };
         match fault {
             Fault::SingularInnovation { measure } => Fault::SingularInnovation { measure: whole(measure) },
+            Fault::NotFinite { quantity: Quantity::Innovation, component } => {
+                Fault::NotFinite { quantity: Quantity::Innovation, component: whole(component) }
+            }
             Fault::NotPositive { matrix: Matrix::Innovation, pivot } => {
                 Fault::NotPositive { matrix: Matrix::Innovation, pivot: whole(pivot) }
             }

@@ -6,7 +6,7 @@ use crate::filter::error::{Fault, Matrix};
 use crate::filter::form::Belief;
 use crate::filter::memory::take;
 use crate::filter::predict::lanes;
-use crate::kernels::{copy_lower, divide_lower, divide_lower_transposed, downdate, solve_lower, tria};
+use crate::kernels::{copy_lower, divide_lower, divide_lower_transposed, downdate, tria};
 use crate::scalar::Real;
 
 /// Scalars of scratch of [`update`], for `columns` columns of Z and noise.
@@ -47,17 +47,7 @@ pub(super) fn update<T: Real>(
     divide_lower_transposed(gain, n, d, s_zz, wide);
     divide_lower(gain, n, d, s_zz, wide);
 
-    // [X − W Z  −W S_R] with X = [S 0]
-    for i in 0..n {
-        let row = &mut posterior[i * stride..(i + 1) * stride];
-        row.fill(T::zero());
-        row[..n].copy_from_slice(&belief.factor[i * n..(i + 1) * n]);
-        for (&w, z) in gain[i * d..(i + 1) * d].iter().zip(sensed.dev.chunks_exact(stride)) {
-            for (x, &y) in row.iter_mut().zip(z) {
-                *x = (-w).mul_add(y, *x);
-            }
-        }
-    }
+    leftover(posterior, gain, belief.factor, sensed, n);
     sick = sick | tria(posterior, n, stride, stride).sick;
     for k in 0..sensed.lost {
         for (v, w) in column.iter_mut().zip(gain.chunks_exact(d)) {
@@ -66,14 +56,29 @@ pub(super) fn update<T: Real>(
         }
         sick = sick | lanes(downdate(posterior, n, stride, &mut column[..n]), Matrix::Posterior)?;
     }
+    innovation.whiten(s_zz, wide, d)?;
     copy_lower(belief.factor, n, posterior, stride);
     copy_lower(innovation.factor, d, s_zz, wide);
-    innovation.white[..d].copy_from_slice(&innovation.nu[..d]);
-    solve_lower(s_zz, wide, &mut innovation.white[..d]);
     for (m, w) in belief.mean.iter_mut().zip(gain.chunks_exact(d)) {
         *m = w.iter().zip(&innovation.nu[..d]).fold(*m, |sum, (&w, &nu)| w.mul_add(nu, sum));
     }
     Ok(sick)
+}
+
+/// [X − W Z  −W S_R] with X = [S 0], n rows as long as those of Z: what the gain W leaves of the state's deviations.
+#[inline(always)]
+pub(super) fn leftover<T: Real>(to: &mut [T], gain: &[T], factor: &[T], sensed: &Sensed<T>, n: usize) {
+    let (d, stride) = (sensed.d, sensed.stride);
+    for i in 0..n {
+        let row = &mut to[i * stride..(i + 1) * stride];
+        row.fill(T::zero());
+        row[..n].copy_from_slice(&factor[i * n..(i + 1) * n]);
+        for (&w, z) in gain[i * d..(i + 1) * d].iter().zip(sensed.dev.chunks_exact(stride)) {
+            for (x, &y) in row.iter_mut().zip(z) {
+                *x = (-w).mul_add(y, *x);
+            }
+        }
+    }
 }
 
 /// P_xz = Cov[x, z] = S Dᵀ, n × d.

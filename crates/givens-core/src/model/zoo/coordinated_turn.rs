@@ -3,7 +3,7 @@
 use crate::model::{At, Noise, Transition};
 use crate::scalar::Real;
 
-/// The discrete coordinated turn with unknown turn rate (2009 eq 60; Bar-Shalom, Li & Kirubarajan 2001, §11.7).
+/// The discrete coordinated turn with unknown turn rate (2009 §VIII-B; Bar-Shalom, Li & Kirubarajan 2001, §11.7).
 ///
 /// State: x, vx, y, vy, ω (m, m/s, m, m/s, rad/s). Over a step T the velocity turns by ω T; white acceleration of
 /// intensity `q1` and a random walk of the rate of intensity `q2` are added.

@@ -5,7 +5,7 @@ use crate::scalar::Real;
 use core::f64::consts::TAU;
 
 /// Range and bearing from the origin of a position that stands at components `x` and `y` of the state
-/// (2009 eq 61); the bearing is an angle in radians.
+/// (2009 §VIII-B); the bearing is an angle in radians.
 #[derive(Clone, Copy, Debug)]
 pub struct RangeBearing {
     /// Length of the state.

@@ -22,10 +22,12 @@ pub(super) fn figure(given: &TrackFigure) -> Figure {
     let drawn = &states[..states.len().min(MOST_STATES)];
     let plane = plane::panel(given);
     let nis = shown.and_then(|t| t.nis.as_ref()).map(|n| nis::panel(n, time_axis(given, shown)));
-    let pairs = drawn.iter().any(|s| s.truth.is_some());
+    let errors = drawn.iter().filter(|s| s.truth.is_some()).count();
+    let pairs = errors > 0 && errors == drawn.len();
+    let cells = if pairs { drawn.len() } else { drawn.len() + errors };
     let look = Look::of(given, index.unwrap_or(0));
     let columns = |groups: usize| states_grid(drawn, groups, &look, &time_axis(given, shown));
-    let (body, width, height) = match (plane, drawn.len()) {
+    let (body, width, height) = match (plane, cells) {
         (None, 0) => (grid(1, &[1.0], vec![Some(nis.unwrap_or_default())]), WIDTH, 300.0),
         (None, n) => {
             let groups = groups(n, pairs);
@@ -107,21 +109,28 @@ fn grid(columns: usize, rows: &[f64], cells: Vec<Option<Panel>>) -> Block {
     Block::Grid(Grid { columns: vec![1.0; columns], rows: rows.to_vec(), cells })
 }
 
-/// The states in so many groups side by side, filled downwards; with a truth, each beside its error.
+/// The states in so many groups side by side, filled downwards. Where the truth of all is known, each group is two
+/// columns, the states and beside them their errors; else the error of a state stands below it.
 fn states_grid(states: &[StateSeries], groups: usize, look: &Look, time: &Axis) -> Block {
-    let pairs = states.iter().any(|s| s.truth.is_some());
-    let rows = states.len().div_ceil(groups);
+    let pairs = !states.is_empty() && states.iter().all(|s| s.truth.is_some());
+    let error = |s: &StateSeries, axis: Axis| Some(state::error(s, s.truth.as_ref()?, axis, look));
+    let kinds = |s: &StateSeries| if pairs || s.truth.is_none() { 1 } else { 2 };
+    let places: Vec<(&StateSeries, usize)> =
+        states.iter().flat_map(|s| (0..kinds(s)).map(move |kind| (s, kind))).collect();
+    let rows = places.len().div_ceil(groups);
     let mut cells = Vec::new();
     for (row, group) in (0..rows).flat_map(|row| (0..groups).map(move |group| (row, group))) {
         let index = group * rows + row;
         // Time is written once under each column.
-        let labelled = row + 1 == rows || index + 1 >= states.len();
+        let labelled = row + 1 == rows || index + 1 >= places.len();
         let axis = || Axis { labelled, ..time.clone() };
-        let series = states.get(index);
-        cells.push(series.map(|s| state::estimate(s, axis(), look)));
+        let place = places.get(index);
+        cells.push(place.and_then(|&(s, kind)| match kind {
+            0 => Some(state::estimate(s, axis(), look)),
+            _ => error(s, axis()),
+        }));
         if pairs {
-            let error = |s: &StateSeries| Some(state::error(s, s.truth.as_ref()?, axis(), look));
-            cells.push(series.and_then(error));
+            cells.push(place.and_then(|&(s, _)| error(s, axis())));
         }
     }
     let columns = if pairs { 2 * groups } else { groups };

@@ -1,0 +1,169 @@
+//! Wrong methods, options and parameters.
+
+use super::{NONE, check, folder};
+
+#[test]
+fn wrong_methods_and_options() {
+    check(
+        "options",
+        &[
+            (
+                "method",
+                NONE,
+                "filter model.toml data.csv -o out.csv --method ukff",
+                &["--method ukff: there is no method `ukff`", "did you mean `ukf`?"],
+            ),
+            (
+                "continuous",
+                NONE,
+                "filter model.toml data.csv -o out.csv --method cd-ckf",
+                &["there is no method `cd-ckf`", "discrete-time methods"],
+            ),
+            (
+                "unread",
+                NONE,
+                "filter model.toml data.csv -o out.csv --method ckf --set eta=2",
+                &["--set eta=2: `ckf` does not read `eta`", "central-difference"],
+            ),
+            (
+                "update",
+                NONE,
+                "filter model.toml data.csv -o out.csv --method ckf --set update=joint",
+                &["`ckf` does not read `update`", "square-root"],
+            ),
+            (
+                "in_compare",
+                NONE,
+                "compare model.toml data.csv --methods ukf,ckf --set ckf.kappa=2",
+                &["--set ckf.kappa=2: `ckf` does not read `kappa`"],
+            ),
+            (
+                "for_all",
+                NONE,
+                "compare model.toml data.csv --methods ukf,ckf --set kappa=2",
+                &["`ckf` does not read `kappa`", "--set METHOD.kappa=2"],
+            ),
+            (
+                "other_method",
+                NONE,
+                "compare model.toml data.csv --methods ukf,ckf --set ekf.kappa=2",
+                &["--set ekf.kappa=2: `ekf` is not among --methods"],
+            ),
+            (
+                "precision",
+                NONE,
+                "filter model.toml data.csv -o out.csv --set precision=f32",
+                &["--set precision=f32: there is no option `precision`"],
+            ),
+            (
+                "no_value",
+                NONE,
+                "filter model.toml data.csv -o out.csv --set kappa",
+                &["--set kappa: write it as name=value"],
+            ),
+            (
+                "word",
+                NONE,
+                "filter model.toml data.csv -o out.csv --set rule=cubatur3",
+                &["--set rule=cubatur3: no such choice", "did you mean `cubature3`?"],
+            ),
+            (
+                "points",
+                NONE,
+                "filter model.toml data.csv -o out.csv --method qkf --set points=1",
+                &["points", "from 2 to 64"],
+            ),
+            (
+                "grid",
+                NONE,
+                "filter model.toml data.csv -o out.csv --method qkf --set points=64",
+                &["--set points=64: ", "use fewer points", "the model has n = 4"],
+            ),
+            (
+                "alpha",
+                NONE,
+                "filter model.toml data.csv -o out.csv --set alpha=0",
+                &["--set alpha=0: must be above zero"],
+            ),
+            (
+                "kappa",
+                NONE,
+                "filter model.toml data.csv -o out.csv --set kappa=-4.5",
+                &["--set kappa=-4.5: n + kappa must be above zero", "the model has n = 4"],
+            ),
+            (
+                "eta",
+                NONE,
+                "filter model.toml data.csv -o out.csv --method cdkf --set eta=0.9",
+                &["--set eta=0.9: must be"],
+            ),
+        ],
+    );
+}
+
+#[test]
+fn wrong_parameters_and_lists() {
+    check(
+        "parameters",
+        &[
+            (
+                "number",
+                NONE,
+                "filter model.toml data.csv -o out.csv --set kappa=two",
+                &["--set kappa=two: must be a number"],
+            ),
+            (
+                "param",
+                NONE,
+                "filter model.toml data.csv -o out.csv --param p=1",
+                &["model.toml: the parameter `p` was set, but the model has none of this name", "help: "],
+            ),
+            (
+                "param_number",
+                NONE,
+                "filter model.toml data.csv -o out.csv --param q=much",
+                &["--param q=much: `much` is not a finite number"],
+            ),
+            (
+                "param_shape",
+                NONE,
+                "filter model.toml data.csv -o out.csv --param q",
+                &["--param q: write it as name=value"],
+            ),
+            (
+                "methods_unknown",
+                NONE,
+                "compare model.toml data.csv --methods ukf,ckff",
+                &["--methods ckff: there is no method `ckff`", "did you mean"],
+            ),
+            (
+                "methods_empty",
+                NONE,
+                "compare model.toml data.csv --methods ukf,,ckf",
+                &["--methods ukf,,ckf: a name is empty", "commas between"],
+            ),
+            ("methods_missing", NONE, "compare model.toml data.csv", &["--methods <A,B,…>"]),
+            ("at", NONE, "filter model.toml data.csv -o out.csv --at 1,2", &["unexpected argument '--at'"]),
+            (
+                "report",
+                NONE,
+                "filter model.toml data.csv -o out.csv --report r.html",
+                &["unexpected argument '--report'"],
+            ),
+            (
+                "parquet",
+                NONE,
+                "filter model.toml data.csv -o out.csv --format parquet",
+                &["invalid value 'parquet'", "csv, jsonl"],
+            ),
+            ("reproduce", NONE, "reproduce all", &["unrecognized subcommand 'reproduce'"]),
+        ],
+    );
+}
+
+#[test]
+fn an_empty_list_of_methods_is_told() {
+    let found = folder("methods", &NONE).run_args(&["compare", "model.toml", "data.csv", "--methods", ""]);
+    assert_eq!((found.code, found.stdout.as_str()), (2, ""));
+    assert!(found.stderr.contains("--methods : a name is empty"), "{}", found.stderr);
+}

@@ -1,0 +1,75 @@
+//! A step of a filter allocates nothing.
+
+use givens::filter::{
+    Cdkf, Ckf, Ckf5, Ekf, Gaussian, Method, Qkf, SrCdkf, SrCkf, SrCkf5, SrEkf, SrQkf, SrUkf, Ukf,
+};
+use givens::model::zoo::{CoordinatedTurn, RangeBearing};
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::cell::Cell;
+
+thread_local! {
+    static ALLOCATIONS: Cell<usize> = const { Cell::new(0) };
+}
+
+/// The system's allocator, counting the calls of each thread.
+struct Counting;
+
+// SAFETY: every call goes to the system's allocator as it came.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        ALLOCATIONS.set(ALLOCATIONS.get() + 1);
+        unsafe { System.alloc(layout) }
+    }
+    unsafe fn dealloc(&self, memory: *mut u8, layout: Layout) {
+        unsafe { System.dealloc(memory, layout) }
+    }
+    unsafe fn realloc(&self, memory: *mut u8, layout: Layout, size: usize) -> *mut u8 {
+        ALLOCATIONS.set(ALLOCATIONS.get() + 1);
+        unsafe { System.realloc(memory, layout, size) }
+    }
+}
+
+#[global_allocator]
+static COUNTING: Counting = Counting;
+
+/// Allocations of twenty steps, after one that may make room for the sensor.
+fn allocations<X: Method>(method: X) -> usize {
+    let (turn, radar) = (CoordinatedTurn::default(), RangeBearing::published());
+    let prior =
+        Gaussian::from_std(&[1000.0, 300.0, 1000.0, 0.0, -0.05], &[10.0, 3.2, 10.0, 3.2, 0.01]).unwrap();
+    let mut filter = method.start(&turn, 0.0, &prior).unwrap();
+    let mut before = 0;
+    for k in 0..21 {
+        if k == 1 {
+            before = ALLOCATIONS.get();
+        }
+        let t = f64::from(k) + 1.0;
+        filter.predict(t).unwrap();
+        let (x, y) = (filter.mean()[0] + 3.0, filter.mean()[2] - 2.0);
+        filter.update_present(&radar, &[x.hypot(y), y.atan2(x)], &[true, k % 3 != 0]).unwrap();
+    }
+    ALLOCATIONS.get() - before
+}
+
+#[test]
+fn no_method_allocates_in_a_step() {
+    assert_eq!(allocations(Ekf::default()), 0, "ekf");
+    assert_eq!(allocations(Ukf::default()), 0, "ukf");
+    assert_eq!(allocations(Cdkf::default()), 0, "cdkf");
+    assert_eq!(allocations(Qkf::default()), 0, "qkf");
+    assert_eq!(allocations(Ckf::default()), 0, "ckf");
+    assert_eq!(allocations(Ckf5::default()), 0, "ckf5");
+    assert_eq!(allocations(SrEkf::default()), 0, "sr-ekf");
+    assert_eq!(allocations(SrUkf::default()), 0, "sr-ukf");
+    assert_eq!(allocations(SrCdkf::default()), 0, "sr-cdkf");
+    assert_eq!(allocations(SrQkf::default()), 0, "sr-qkf");
+    assert_eq!(allocations(SrCkf::default()), 0, "sr-ckf");
+    assert_eq!(allocations(SrCkf5::default()), 0, "sr-ckf5");
+}
+
+#[test]
+fn allocations_are_counted() {
+    let before = ALLOCATIONS.get();
+    let held = vec![1.0; 64];
+    assert!(ALLOCATIONS.get() > before, "{}", held.len());
+}

@@ -97,7 +97,7 @@ mod tests {
 
     #[test]
     fn a_zero_pivot_of_both_ends_its_column_only() {
-        let mut l = [0.0, 0.0, 0.0, 2.0];
+        let mut l = [0.0_f64, 0.0, 0.0, 2.0];
         let mut v = [0.0, 1.0];
         assert!(super::downdate(&mut l, 2, 2, &mut v).failed().is_none());
         assert!((l[3] - 3.0f64.sqrt()).abs() < 1e-15);

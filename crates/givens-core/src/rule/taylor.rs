@@ -1,7 +1,7 @@
 //! First-order Taylor expansion by exact derivatives: the extended Kalman filter's rule.
 
 use super::{Rule, RuleError, Shape, Spread};
-use crate::model::{At, Map};
+use crate::model::{At, Linear, Map};
 use crate::scalar::Real;
 
 /// E\[g\] ≈ g(m), D = J S with J = ∂g/∂x at m: exact for linear maps. An angle is wrapped in the innovation only.
@@ -34,6 +34,7 @@ impl Rule for Taylor {
         out: &mut Spread<T>,
         scratch: &mut [T],
     ) {
-        g.linear(at, mean, factor, out.mean, out.dev, out.stride, scratch);
+        let linear = Linear { value: &mut *out.mean, image: &mut *out.dev, stride: out.stride };
+        g.linear(at, mean, factor, linear, scratch);
     }
 }

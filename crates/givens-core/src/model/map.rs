@@ -91,7 +91,7 @@ impl<H: Observation> Map for Sensed<'_, H> {
 /// Scratch of [`points_one_by_one`].
 #[must_use]
 pub const fn points_scratch(n: usize, d: usize) -> usize {
-    n + d
+    n.saturating_add(d)
 }
 
 /// Evaluates a map of n inputs and d outputs at points stored component by component, one after the other.
@@ -121,7 +121,7 @@ pub fn points_one_by_one<T: Real>(
 /// Scratch of [`linear_by_duals`]; `beside` is the number of controls and parameters together.
 #[must_use]
 pub const fn linear_scratch(n: usize, d: usize, beside: usize) -> usize {
-    3 * (n + d + beside)
+    n.saturating_add(d).saturating_add(beside).saturating_mul(3)
 }
 
 /// The first-order part of a map by duals, one direction (a column of `s`) after the other.

@@ -8,13 +8,21 @@ use crate::scalar::Real;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Taylor;
 
+impl Taylor {
+    /// The sizes for a state of length `n`, as a constant.
+    #[must_use]
+    pub const fn shape_for(self, _: usize) -> Shape {
+        Shape { table: 0, points: 0, plus: 0, minus: 0 }
+    }
+}
+
 impl Rule for Taylor {
     fn check(&self, _: usize) -> Result<(), RuleError> {
         Ok(())
     }
 
-    fn shape(&self, _: usize) -> Shape {
-        Shape { table: 0, points: 0, plus: 0, minus: 0 }
+    fn shape(&self, n: usize) -> Shape {
+        self.shape_for(n)
     }
 
     fn rounding(&self, _: usize) -> f64 {

@@ -38,7 +38,8 @@ pub fn downdate<T: Real>(l: &mut [T], n: usize, stride: usize, v: &mut [T]) -> H
             fold(l, n, stride, k, absent);
         }
         let spent = r2.abs().le(rounding * size) & !untouched & !absent;
-        health.note(!untouched & !absent & !(-(rounding * size)).le(r2), k);
+        let negative = !(-(rounding * size)).le(r2) | !r2.finite();
+        health.note(!untouched & !absent & negative, k);
         let cleared = spent | absent;
         let still = cleared | untouched;
         let r = T::select(cleared, zero, T::select(untouched, pivot, r2.sqrt()));

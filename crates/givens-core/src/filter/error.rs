@@ -1,6 +1,7 @@
 //! What can go wrong in a step: data, not words.
 
 use crate::rule::RuleError;
+use crate::scalar::Shown;
 use core::fmt;
 
 /// A symmetric matrix that a step needs a root of.
@@ -144,9 +145,9 @@ impl fmt::Display for Fault {
             Fault::NotFinite { quantity, component } => {
                 write!(f, "component {} of the {} is not a finite number", component + 1, quantity.name())
             }
-            Fault::Backwards { to } => write!(f, "cannot predict back to t = {to}"),
+            Fault::Backwards { to } => write!(f, "cannot predict back to t = {}", Shown(to)),
             Fault::NotWholeSteps { gap, period } => {
-                write!(f, "a gap of {gap} is not a whole number of steps of {period}")
+                write!(f, "a gap of {} is not a whole number of steps of {}", Shown(gap), Shown(period))
             }
             Fault::Length { of, expected, found } => {
                 write!(f, "{of}: expected length {expected}, found {found}")
@@ -169,7 +170,7 @@ pub struct StepError {
 
 impl fmt::Display for StepError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "step {}, t = {}: {}", self.step, self.time, self.fault)
+        write!(f, "step {}, t = {}: {}", self.step, Shown(self.time), self.fault)
     }
 }
 

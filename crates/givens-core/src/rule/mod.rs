@@ -23,7 +23,7 @@ pub use taylor::Taylor;
 pub use unscented::Unscented;
 
 use crate::model::{At, Map};
-use crate::scalar::{Mask, Real};
+use crate::scalar::{Mask, Real, Shown};
 
 /// The sizes that a rule needs for a state of length n.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -115,7 +115,7 @@ pub struct RuleError {
 
 impl core::fmt::Display for RuleError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        write!(f, "{} = {}: {}", self.option, self.value, self.must)
+        write!(f, "{} = {}: {}", self.option, Shown(self.value), self.must)
     }
 }
 

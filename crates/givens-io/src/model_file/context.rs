@@ -2,6 +2,7 @@
 
 use core::ops::Range;
 
+use givens_core::scalar::Shown;
 use givens_expr::{Graph, Input, Node, Scope};
 
 use super::document::Value;
@@ -84,7 +85,8 @@ impl Context<'_> {
             let node = self.expression(scope, value, &what);
             let good = match node.and_then(|node| self.known(node)) {
                 Some(number) if number < 0.0 => {
-                    let message = format!("{what} is {number}, but a standard deviation is not negative");
+                    let message =
+                        format!("{what} is {}, but a standard deviation is not negative", Shown(number));
                     self.findings.wrong_help(
                         &value.span,
                         message,

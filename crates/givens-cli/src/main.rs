@@ -3,6 +3,7 @@
 
 mod args;
 mod commands;
+mod failure;
 mod figure;
 mod files;
 mod message;
@@ -13,6 +14,7 @@ mod report;
 mod session;
 mod stdout;
 mod timetable;
+mod truth;
 
 use clap::Parser;
 use std::process::ExitCode;

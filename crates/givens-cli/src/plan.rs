@@ -3,9 +3,10 @@
 use crate::args::{FilterArgs, ModelArgs};
 use crate::message::{Stop, say};
 use crate::method::{chosen, pair};
+use crate::truth::Truth;
 use givens::Goal;
 use givens::registry::Choice;
-use givens_io::{Beginning, Model, Track, Tracks, Truth, read_tracks, read_truth};
+use givens_io::{Beginning, Model, Track, Tracks, read_tracks};
 use std::path::Path;
 
 /// Everything that a run over data needs, read and checked.
@@ -17,8 +18,6 @@ pub struct Plan {
     pub beginnings: Vec<Beginning>,
     pub choice: Choice,
     pub truth: Option<Truth>,
-    /// The rows of the truth that are of each track.
-    pub truth_rows: Vec<Vec<usize>>,
 }
 
 impl Plan {
@@ -46,19 +45,8 @@ impl Plan {
             })
         });
         let beginnings = beginnings.collect::<Result<_, _>>()?;
-        let truth = match truth {
-            Some(path) => {
-                let truth = read_truth(path, &model, &tracks)?;
-                ignored(path, &truth.ignored);
-                Some(truth)
-            }
-            None => None,
-        };
-        let mut truth_rows = vec![Vec::new(); tracks.tracks.len()];
-        for (row, &track) in truth.iter().flat_map(|truth| truth.tracks.iter().enumerate()) {
-            truth_rows[track].push(row);
-        }
-        Ok(Self { model, data: data.to_owned(), tracks, beginnings, choice, truth, truth_rows })
+        let truth = truth.map(|path| Truth::read(path, &model, &tracks)).transpose()?;
+        Ok(Self { model, data: data.to_owned(), tracks, beginnings, choice, truth })
     }
 
     /// The time at which `--point` stands on the axis of each track.
@@ -82,7 +70,17 @@ impl Plan {
                 None => stop,
             })
         };
-        self.tracks.tracks.iter().zip(&self.beginnings).map(point).collect()
+        let goals = self.tracks.tracks.iter().zip(&self.beginnings).map(point);
+        let goals = goals.collect::<Result<Vec<_>, _>>()?;
+        let known = |(i, goal): (usize, &Goal)| match (&self.truth, goal) {
+            (Some(truth), Goal::Point(t)) => truth.row(i, *t).is_some(),
+            _ => true,
+        };
+        if !goals.iter().enumerate().any(known) {
+            return Err(Stop::input(format!("--point {text}: the truth has no row at this time"))
+                .help("leave --truth out, or add the row to it"));
+        }
+        Ok(goals)
     }
 }
 

@@ -18,7 +18,7 @@ fn a_hundred_thousand_rows_run_in_seconds() {
 }
 
 #[test]
-fn a_tracks_with_a_truth_run_in_seconds() {
+fn a_thousand_tracks_with_a_truth_run_in_seconds() {
     let folder = folder("tracks");
     let begun = std::time::Instant::now();
     let line = "simulate walk.toml --steps 20 --runs 2000 --seed 1 -o data.csv --states truth.csv";

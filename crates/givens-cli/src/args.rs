@@ -1,5 +1,7 @@
 //! What the user typed.
 
+use crate::message::Stop;
+use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use std::path::PathBuf;
@@ -175,6 +177,19 @@ pub struct CheckArgs {
     pub model: ModelArgs,
     #[command(flatten)]
     pub method: MethodArgs,
+}
+
+/// The words for an option of `smooth` that was given to another command, where the parser's tip would mislead.
+pub fn of_smooth(error: &clap::Error) -> Option<Stop> {
+    let Some(ContextValue::String(found)) = error.get(ContextKind::InvalidArg) else { return None };
+    let value = match found.as_str() {
+        "--lag" => "ROWS",
+        "--point" => "T",
+        _ => return None,
+    };
+    let unknown = error.kind() == ErrorKind::UnknownArgument;
+    let stop = Stop::input(format!("{found} is an option of `smooth`"));
+    unknown.then(|| stop.help(format!("write givens smooth MODEL DATA {found} {value}")))
 }
 
 /// A whole number.

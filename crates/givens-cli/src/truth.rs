@@ -17,7 +17,9 @@ impl Truth {
     /// Reads the truth of some tracks.
     pub fn read(path: &str, model: &Model, tracks: &Tracks) -> Result<Self, Stop> {
         let found = read_truth(path, model, tracks)?;
-        ignored(path, &found.ignored);
+        let states = model.states.iter().zip(&found.states);
+        let absent = states.filter(|(_, column)| column.is_none()).map(|(name, _)| name.as_str());
+        ignored(path, &found.ignored, &absent.collect::<Vec<_>>());
         let mut rows = vec![Vec::new(); tracks.tracks.len()];
         for (row, &track) in found.tracks.iter().enumerate() {
             rows[track].push(row);

@@ -79,11 +79,13 @@ impl<'p> Parser<'p> {
             Token::End => ExprError::new(
                 self.span.clone(),
                 "the expression ends where a number, a name or `(` should follow",
-            ),
+            )
+            .help("complete it, or leave out what stands last"),
             _ => ExprError::new(
                 self.span.clone(),
                 format!("expected a number, a name or `(`, found `{found}`"),
-            ),
+            )
+            .help(format!("write one before `{found}`, or leave `{found}` out")),
         }
     }
 

@@ -4,7 +4,7 @@ use crate::args::SimulateArgs;
 use crate::failure;
 use crate::files::{self, Sink};
 use crate::message::Stop;
-use crate::plan::{ignored, model, source_name};
+use crate::plan::{absent, ignored, model, source_name};
 use crate::timetable::{bounded, regular};
 use givens::Row;
 use givens::filter::{Gaussian, StepError};
@@ -56,7 +56,7 @@ fn prior(model: &Model) -> Result<Gaussian, Stop> {
 fn tracks(model: &Model, args: &SimulateArgs) -> Result<Tracks, Stop> {
     let Some(path) = &args.times else { return regular(model, args) };
     let tracks = read_times(path, model)?;
-    ignored(path, &tracks.ignored);
+    ignored(path, &tracks.ignored, &absent(&model, &tracks));
     if args.runs > 1 && tracks.has_track_id {
         let stop = Stop::input(format!("--runs {}: the table of --times has tracks of its own", args.runs));
         return Err(stop.help("leave --runs out, or remove its column `track_id`"));

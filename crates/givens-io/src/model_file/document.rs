@@ -69,12 +69,23 @@ pub(super) fn read(findings: &Findings) -> Option<Vec<Entry>> {
     // One slip makes many errors after it.
     let spans = errors.iter().map(|error| error.span().unwrap_or(source.text.len()..source.text.len()));
     if let Some((span, error)) = spans.zip(&errors).min_by_key(|(span, _)| span.start) {
+        if is_table(source) {
+            let message = "this is a table, not a model file";
+            findings.wrong_help(&(0..source.line(0).len()), message, "the model comes first, then the data");
+            return None;
+        }
         let found = source.text.get(span.clone()).and_then(|found| found.lines().next()).unwrap_or("").trim();
         let found = if found.is_empty() { String::new() } else { format!(" at `{found}`") };
         let help = "strings stand in quotes, lists in [ ], tables in { }, with commas between their items";
         findings.wrong_help(&span, format!("not valid TOML{found}: {}", error.message()), help);
     }
     None
+}
+
+/// Whether the text, which is no TOML, begins as tables do: with names and commas between.
+fn is_table(source: &Source) -> bool {
+    let first = source.line(0);
+    first.contains(',') && !first.contains(['=', '[', '#'])
 }
 
 fn entries(table: DeTable, source: &Source) -> Vec<Entry> {

@@ -41,6 +41,16 @@ fn fault(model: &Model, form: Option<FormName>, fault: &Fault) -> String {
             measure(i)
         ),
         Fault::NotFinite { quantity, component } => match quantity {
+            Quantity::TransitionDerivative => format!(
+                "the derivative of the transition of {}, with respect to the state at the mean, is not a finite number; \
+                 {SMOOTH}",
+                state(component)
+            ),
+            Quantity::ObservationDerivative => format!(
+                "the derivative of the predicted measure {}, with respect to the state at the mean, is not a finite \
+                 number; {SMOOTH}",
+                measure(component)
+            ),
             Quantity::Transition | Quantity::Estimate | Quantity::ProcessNoise => {
                 format!("the {} of {} is not a finite number; {DOMAIN}", quantity.name(), state(component))
             }
@@ -56,6 +66,9 @@ fn fault(model: &Model, form: Option<FormName>, fault: &Fault) -> String {
 /// Where numbers that are none come from.
 const DOMAIN: &str =
     "look for a division by zero, the root of a negative number, or an estimate that runs away";
+
+/// The way out of a point where a model has no derivative.
+const SMOOTH: &str = "use a method without derivatives (--method sr-ckf), or start off that point";
 
 /// The way out of a covariance that does not exist.
 fn remedy(matrix: Matrix, form: Option<FormName>) -> &'static str {

@@ -49,6 +49,10 @@ pub enum Quantity {
     Transition,
     /// The value of a measure.
     Observation,
+    /// The derivative of the transition with respect to the state, at the mean.
+    TransitionDerivative,
+    /// The derivative of a measure with respect to the state, at the mean.
+    ObservationDerivative,
     /// The process noise.
     ProcessNoise,
     /// The measurement noise.
@@ -72,6 +76,8 @@ impl Quantity {
         match self {
             Quantity::Transition => "transition",
             Quantity::Observation => "predicted measure",
+            Quantity::TransitionDerivative => "derivative of the transition",
+            Quantity::ObservationDerivative => "derivative of the predicted measure",
             Quantity::ProcessNoise => "process noise",
             Quantity::MeasurementNoise => "measurement noise",
             Quantity::Measurement => "measurement",
@@ -143,7 +149,15 @@ impl fmt::Display for Fault {
                 measure + 1
             ),
             Fault::NotFinite { quantity, component } => {
-                write!(f, "component {} of the {} is not a finite number", component + 1, quantity.name())
+                write!(f, "component {} of the {} is not a finite number", component + 1, quantity.name())?;
+                match quantity {
+                    Quantity::TransitionDerivative | Quantity::ObservationDerivative => f.write_str(
+                        ": taken with respect to the state at the mean; use a method without derivatives (sr-ckf), or \
+                         start off that point",
+                    ),
+                    Quantity::Measurement => f.write_str("; `update_present` takes missing components"),
+                    _ => Ok(()),
+                }
             }
             Fault::Backwards { to } => write!(f, "cannot predict back to t = {}", Shown(to)),
             Fault::NotWholeSteps { gap, period } => {

@@ -34,6 +34,13 @@ impl Context<'_> {
         expression(self.findings, &mut self.graph, scope, value, what)
     }
 
+    /// Reads an expression that is finite if it is the same at every time.
+    pub fn finite_expression(&mut self, scope: &Scope, value: &Value, what: &str) -> Option<Node> {
+        let node = self.expression(scope, value, what)?;
+        let known = self.known(node);
+        known.is_none_or(|number| self.finite(number, &value.span, what)).then_some(node)
+    }
+
     /// Reads a number, or an expression in parameters, and gives its value.
     pub fn number(&mut self, scope: &Scope, value: &Value, what: &str) -> Option<f64> {
         let node = self.expression(scope, value, what)?;

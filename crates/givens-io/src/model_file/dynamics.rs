@@ -76,7 +76,7 @@ fn transition(context: &mut Context, section: &Section, states: &[String]) -> Op
     let scope = context.scope(Role::Transition);
     let mut nodes = Vec::with_capacity(values.len());
     for (value, name) in values.into_iter().zip(states) {
-        nodes.push(context.expression(&scope, value, &format!("the transition of `{name}`")));
+        nodes.push(context.finite_expression(&scope, value, &format!("the transition of `{name}`")));
     }
     nodes.into_iter().collect()
 }

@@ -6,6 +6,7 @@ use crate::plan::Plan;
 use crate::session::Session;
 use givens::Estimates;
 use givens::metrics::{Accuracy, Consistency};
+use givens::scalar::Shown;
 use givens_io::Model;
 
 /// The closing lines of a run.
@@ -19,7 +20,10 @@ pub fn closing(plan: &Plan, session: &Session) {
         return;
     }
     let consistency = Consistency::of(session.estimates());
-    say(&format!("{title}: {counted}{of}, log-likelihood {:.3}, {consistency}", session.log_likelihood()));
+    say(&format!(
+        "{title}: {counted}{of}, log-likelihood {:.3}, {consistency}",
+        Shown(session.log_likelihood())
+    ));
     if let Some(accuracy) = session.accuracy(plan) {
         for line in accuracy_lines(&plan.model, &accuracy) {
             say(&line);
@@ -47,10 +51,11 @@ fn accuracy_lines(model: &Model, accuracy: &Accuracy) -> Vec<String> {
     if accuracy.rows.iter().all(|&rows| rows == 0) {
         lines.push("  the truth has no value at the rows that were finished".into());
     } else {
-        let per = accuracy.nees / accuracy.nees_dof;
+        let per = Shown(accuracy.nees / accuracy.nees_dof);
         lines.push(format!(
             "  mean NEES {:.3} of {:.1} states known, {per:.3} per state (1 if the covariances are right; 2σ holds 95.4 %)",
-            accuracy.nees, accuracy.nees_dof
+            Shown(accuracy.nees),
+            accuracy.nees_dof
         ));
     }
     lines

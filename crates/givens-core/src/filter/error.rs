@@ -132,6 +132,11 @@ pub enum Fault {
         /// The length it has.
         found: usize,
     },
+    /// The model has controls, and they were never set.
+    ControlsNotSet {
+        /// How many it has.
+        controls: usize,
+    },
     /// An option out of its range.
     Option(RuleError),
 }
@@ -165,6 +170,12 @@ impl fmt::Display for Fault {
             }
             Fault::Length { of, expected, found } => {
                 write!(f, "{of}: expected length {expected}, found {found}")
+            }
+            Fault::ControlsNotSet { controls } => {
+                write!(
+                    f,
+                    "the model has {controls} controls that were never set; give them to `set_controls` first"
+                )
             }
             Fault::Option(error) => error.fmt(f),
         }

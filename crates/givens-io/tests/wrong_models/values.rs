@@ -107,7 +107,7 @@ fn matrices_that_are_no_covariances_are_told() {
         Case(
             "x + dt*vx",
             "x + dt*(vx + log(-1))",
-            (11, 37),
+            (11, 34),
             "`log(-1)` is a constant that is not a number",
             "logarithm",
         ),

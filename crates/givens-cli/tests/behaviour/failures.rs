@@ -110,7 +110,7 @@ fn compare_names_the_failures_of_each_method() {
 #[test]
 fn a_derivative_that_does_not_exist_is_told_with_a_method_that_needs_none() {
     let folder = folder("derivative");
-    folder.write("walk.toml", &WALK.replace("z = \"x\"", "z = \"sqrt(x^2)\""));
+    folder.write("walk.toml", &WALK.replace("z = \"x\"", "z = \"hypot(x, 0)\""));
     folder.write("data.csv", "time,z\n0,1\n");
     let found = folder.run("filter walk.toml data.csv --method ekf");
     assert_eq!(found.code, 1);
@@ -124,5 +124,5 @@ fn a_huge_number_is_written_with_an_exponent() {
     let folder = folder("huge");
     folder.write("data.csv", "time,z\n1,1e150\n2,1\n");
     let found = folder.run("filter walk.toml data.csv").good();
-    assert!(found.stderr.contains("mean NIS 8.") && found.stderr.len() < 300, "{}", found.stderr);
+    assert!(found.stderr.contains("mean NIS 4.306e299 per") && found.stderr.len() < 300, "{}", found.stderr);
 }

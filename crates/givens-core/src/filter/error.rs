@@ -1,6 +1,7 @@
 //! What can go wrong in a step: data, not words.
 
 use crate::rule::RuleError;
+use crate::scalar::Shown;
 use core::fmt;
 
 /// A symmetric matrix that a step needs a root of.
@@ -48,6 +49,10 @@ pub enum Quantity {
     Transition,
     /// The value of a measure.
     Observation,
+    /// The derivative of the transition with respect to the state, at the mean.
+    TransitionDerivative,
+    /// The derivative of a measure with respect to the state, at the mean.
+    ObservationDerivative,
     /// The process noise.
     ProcessNoise,
     /// The measurement noise.
@@ -71,6 +76,8 @@ impl Quantity {
         match self {
             Quantity::Transition => "transition",
             Quantity::Observation => "predicted measure",
+            Quantity::TransitionDerivative => "derivative of the transition",
+            Quantity::ObservationDerivative => "derivative of the predicted measure",
             Quantity::ProcessNoise => "process noise",
             Quantity::MeasurementNoise => "measurement noise",
             Quantity::Measurement => "measurement",
@@ -125,6 +132,11 @@ pub enum Fault {
         /// The length it has.
         found: usize,
     },
+    /// The model has controls, and they were never set.
+    ControlsNotSet {
+        /// How many it has.
+        controls: usize,
+    },
     /// An option out of its range.
     Option(RuleError),
 }
@@ -142,14 +154,28 @@ impl fmt::Display for Fault {
                 measure + 1
             ),
             Fault::NotFinite { quantity, component } => {
-                write!(f, "component {} of the {} is not a finite number", component + 1, quantity.name())
+                write!(f, "component {} of the {} is not a finite number", component + 1, quantity.name())?;
+                match quantity {
+                    Quantity::TransitionDerivative | Quantity::ObservationDerivative => f.write_str(
+                        ": taken with respect to the state at the mean; use a method without derivatives (sr-ckf), or \
+                         start off that point",
+                    ),
+                    Quantity::Measurement => f.write_str("; `update_present` takes missing components"),
+                    _ => Ok(()),
+                }
             }
-            Fault::Backwards { to } => write!(f, "cannot predict back to t = {to}"),
+            Fault::Backwards { to } => write!(f, "cannot predict back to t = {}", Shown(to)),
             Fault::NotWholeSteps { gap, period } => {
-                write!(f, "a gap of {gap} is not a whole number of steps of {period}")
+                write!(f, "a gap of {} is not a whole number of steps of {}", Shown(gap), Shown(period))
             }
             Fault::Length { of, expected, found } => {
                 write!(f, "{of}: expected length {expected}, found {found}")
+            }
+            Fault::ControlsNotSet { controls } => {
+                write!(
+                    f,
+                    "the model has {controls} controls that were never set; give them to `set_controls` first"
+                )
             }
             Fault::Option(error) => error.fmt(f),
         }
@@ -169,7 +195,7 @@ pub struct StepError {
 
 impl fmt::Display for StepError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "step {}, t = {}: {}", self.step, self.time, self.fault)
+        write!(f, "step {}, t = {}: {}", self.step, Shown(self.time), self.fault)
     }
 }
 

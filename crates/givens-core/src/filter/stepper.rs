@@ -35,6 +35,8 @@ pub struct Filter<'m, X, M, T, B> {
     pub(super) step: usize,
     /// Components of the last measurement that were there.
     pub(super) present: usize,
+    /// Whether the controls are known: there are none, or they were set.
+    pub(super) controlled: bool,
     pub(super) memory: B,
     scalar: PhantomData<T>,
 }
@@ -151,8 +153,8 @@ impl<'m, X: Method, M: Transition, T: Real, B: AsMut<[T]>> Filter<'m, X, M, T, B
         ] {
             to.iter_mut().zip(from).for_each(|(to, &x)| *to = T::of(x));
         }
-        let (time, scalar) = (prior.time, PhantomData);
-        Ok(Self { method, model, layout, time, step: 0, present: 0, memory, scalar })
+        let (time, scalar, controlled) = (prior.time, PhantomData, sizes.controls == 0);
+        Ok(Self { method, model, layout, time, step: 0, present: 0, controlled, memory, scalar })
     }
 
     /// Scalars of memory that a filter of these sizes needs; `memory` of a method's type is the same as a constant.
@@ -165,13 +167,20 @@ impl<'m, X: Method, M: Transition, T: Real, B: AsMut<[T]>> Filter<'m, X, M, T, B
         parts::<T, X::Form>(&self.layout, self.memory.as_mut())
     }
 
-    /// Sets the controls, which hold until they are set again.
+    /// Sets the controls, which hold until they are set again. A model that has some neither predicts nor is measured by
+    /// them before.
     ///
     /// # Errors
     /// A wrong number of them, or one that is not finite.
     pub fn set_controls(&mut self, u: &[f64]) -> Result<(), StepError> {
         let (time, step) = (self.time, self.step);
-        set(self.parts().u, u, "controls", Quantity::Control).map_err(|fault| StepError { fault, time, step })
+        set(self.parts().u, u, "controls", Quantity::Control).map_err(|fault| StepError {
+            fault,
+            time,
+            step,
+        })?;
+        self.controlled = true;
+        Ok(())
     }
 
     /// Sets the parameters, in place of the model's own.

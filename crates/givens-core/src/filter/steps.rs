@@ -38,7 +38,7 @@ impl<X: Method, M: Transition, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
     /// any length. At the present time nothing happens.
     ///
     /// # Errors
-    /// A time in the past, a gap that is not whole steps, a model that is not finite or whose noise is no covariance,
+    /// A time in the past, a gap that is not whole steps, controls that were never set, a model that is not finite or whose noise is no covariance,
     /// a predicted covariance that is not positive definite. The belief is then that of the last step that succeeded.
     pub fn predict(&mut self, t: f64) -> Result<(), StepError> {
         let (from, gap) = (self.time, t - self.time);
@@ -58,6 +58,9 @@ impl<X: Method, M: Transition, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
             }
             None => (usize::from(gap > 0.0), gap),
         };
+        if count > 0 && !self.controlled {
+            return refuse(Fault::ControlsNotSet { controls: self.layout.sizes.controls });
+        }
         self.stand_still();
         for k in 0..count {
             self.one_step(from + k as f64 * dt, dt, k > 0)?;
@@ -98,7 +101,8 @@ impl<X: Method, M: Transition, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
         Ok(())
     }
 
-    /// Teaches the belief a whole measurement of `sensor` at the present time.
+    /// Teaches the belief a whole measurement of `sensor` at the present time; where components are missing,
+    /// [`update_present`](Self::update_present) takes the others.
     ///
     /// # Errors
     /// A measurement of the wrong length or that is not finite, a sensor model that is not finite or whose noise is no
@@ -144,6 +148,9 @@ impl<X: Method, M: Transition, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
             if expected != found {
                 return Err(fail(Fault::Length { of, expected, found }));
             }
+        }
+        if sensor.controls() > 0 && !self.controlled {
+            return Err(fail(Fault::ControlsNotSet { controls: self.layout.sizes.controls }));
         }
         self.make_room(sensor).map_err(fail)?;
         let (rule, block) = (self.method.rule(), self.method.block());

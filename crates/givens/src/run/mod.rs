@@ -7,6 +7,7 @@ pub use goal::{Goal, Outcome};
 
 use crate::filter::{Gaussian, Method, StepError};
 use crate::model::{Observation, Transition};
+use crate::scalar::Shown;
 use crate::{Data, Estimates, Row};
 
 /// A run that stopped in the middle: what it had finished, and why it went no further.
@@ -22,7 +23,7 @@ pub struct Failure {
 
 impl core::fmt::Display for Failure {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        write!(f, "row {}, t = {}: {}", self.row, self.error.time, self.error.fault)
+        write!(f, "row {}, t = {}: {}", self.row, Shown(self.error.time), self.error.fault)
     }
 }
 

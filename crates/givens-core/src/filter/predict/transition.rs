@@ -43,7 +43,9 @@ pub(crate) fn predict<T: Real, M: Transition, R: Rule, F: Form>(
     let mut spread = Spread { mean, dev, stride, minus };
     rule.spread(table, &Moving(model), at, belief.mean, belief.factor, &mut spread, scratch);
     if let Some(component) = spread.not_finite(n + shape.plus) {
-        return Err(Fault::NotFinite { quantity: Quantity::Transition, component });
+        let derived = shape.points == 0 && spread.mean[component].finite().any();
+        let quantity = if derived { Quantity::TransitionDerivative } else { Quantity::Transition };
+        return Err(Fault::NotFinite { quantity, component });
     }
     let Spread { mean, dev, minus, .. } = spread;
     let mut sick = lanes(model.noise_root(at, root), Matrix::ProcessNoise)?;

@@ -16,7 +16,7 @@ use crate::scalar::Real;
 pub enum Solver {
     /// Euler's, of order 1.
     Euler,
-    /// The midpoint rule, of order 2.
+    /// Heun's method, of order 2.
     Rk2,
     /// The classical Runge–Kutta method, of order 4.
     Rk4,

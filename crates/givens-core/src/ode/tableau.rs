@@ -20,9 +20,9 @@ pub(super) struct Tableau {
 /// Order 1.
 pub(super) const EULER: Tableau = Tableau { stages: 1, a: &[], b: &[1.0], c: &[0.0], error: &[], dense: &[] };
 
-/// Order 2: the midpoint rule. (Heun's would be a = 1, b = ½, ½, c = 0, 1.)
+/// Order 2: Heun's method, the RK2 of the golden values. (The midpoint rule has a = ½, b = 0, 1, c = 0, ½.)
 pub(super) const RK2: Tableau =
-    Tableau { stages: 2, a: &[0.5], b: &[0.0, 1.0], c: &[0.0, 0.5], error: &[], dense: &[] };
+    Tableau { stages: 2, a: &[1.0], b: &[0.5, 0.5], c: &[0.0, 1.0], error: &[], dense: &[] };
 
 /// Order 4: the classical one.
 pub(super) const RK4: Tableau = Tableau {

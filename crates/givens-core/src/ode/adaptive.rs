@@ -94,6 +94,7 @@ pub(super) fn adaptive<T: Real, S: System, M: Method<T, S>>(
                 stop.why = match failed {
                     Failed::System(fault) => Why::System(fault),
                     Failed::NotFinite(component) => Why::NotFinite { component },
+                    Failed::Singular => Why::StepTooSmall,
                 };
                 h = control.failed(h);
             }

@@ -62,6 +62,8 @@ pub(super) enum Failed<F> {
     System(F),
     /// A component that is no finite number.
     NotFinite(usize),
+    /// A linear system without a solution at this length of step.
+    Singular,
 }
 
 impl<F> From<F> for Failed<F> {

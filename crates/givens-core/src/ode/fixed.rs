@@ -47,6 +47,7 @@ pub(super) fn fixed<T: Real, S: System, M: Method<T, S>>(
                 match failed {
                     Failed::System(fault) => Why::System(fault),
                     Failed::NotFinite(component) => Why::NotFinite { component },
+                    Failed::Singular => Why::StepTooSmall,
                 },
             )
         })?;

@@ -4,6 +4,7 @@ use super::adaptive::{Bounds, adaptive};
 use super::explicit::{Explicit, explicit_scratch};
 use super::field::Field;
 use super::fixed::fixed;
+use super::rosenbrock::{Rosenbrock, rosenbrock_scratch};
 use super::segment::{Segment, Visit};
 use super::tableau::{DP5, EULER, RK2, RK4, Tableau};
 use super::{Stop, System, Tolerance, Why};
@@ -22,11 +23,14 @@ pub enum Solver {
     Rk4,
     /// Dormand and Prince's pair of orders 5 and 4, with steps as the tolerance asks.
     Dp5,
+    /// Hairer and Wanner's Rosenbrock method of order 4, for stiff systems, with steps as the tolerance asks. A step
+    /// costs a Jacobian of the whole state (N + 1 evaluations in duals) and an N × N division.
+    Rodas4,
 }
 
 impl Solver {
     /// All of them.
-    pub const ALL: [Solver; 4] = [Solver::Euler, Solver::Rk2, Solver::Rk4, Solver::Dp5];
+    pub const ALL: [Solver; 5] = [Solver::Euler, Solver::Rk2, Solver::Rk4, Solver::Dp5, Solver::Rodas4];
 
     /// Its registry name.
     #[must_use]
@@ -36,21 +40,24 @@ impl Solver {
             Solver::Rk2 => "rk2",
             Solver::Rk4 => "rk4",
             Solver::Dp5 => "dp5",
+            Solver::Rodas4 => "rodas4",
         }
     }
 
     /// Whether it chooses its steps by the tolerance.
     #[must_use]
     pub const fn adaptive(self) -> bool {
-        matches!(self, Solver::Dp5)
+        matches!(self, Solver::Dp5 | Solver::Rodas4)
     }
 
-    const fn tableau(self) -> &'static Tableau {
+    /// Of an explicit method.
+    const fn tableau(self) -> Option<&'static Tableau> {
         match self {
-            Solver::Euler => &EULER,
-            Solver::Rk2 => &RK2,
-            Solver::Rk4 => &RK4,
-            Solver::Dp5 => &DP5,
+            Solver::Euler => Some(&EULER),
+            Solver::Rk2 => Some(&RK2),
+            Solver::Rk4 => Some(&RK4),
+            Solver::Dp5 => Some(&DP5),
+            Solver::Rodas4 => None,
         }
     }
 }
@@ -125,9 +132,12 @@ impl Integrator {
     /// own and has a table of length `table`, and `beside` controls and parameters together.
     #[must_use]
     pub const fn scratch(&self, len: usize, system: usize, beside: usize, table: usize) -> usize {
-        let _ = (beside, table);
+        let method = match self.solver.tableau() {
+            Some(tableau) => explicit_scratch(tableau, len),
+            None => rosenbrock_scratch(len, system, beside, table),
+        };
         // the state at the end of a step, its error, dense output
-        5 * len + system + explicit_scratch(self.solver.tableau(), len)
+        5 * len + system + method
     }
 
     /// Moves `y` from time `at.t` over `at.dt`, which may be negative; `visit` sees every accepted step.
@@ -187,7 +197,7 @@ impl Integrator {
         if !(time + gap).is_finite() {
             return Err(Stop { time, smallest: gap.abs(), why: Why::StepTooSmall });
         }
-        if gap == 0.0 {
+        if gap == 0.0 || len == 0 {
             return Ok(());
         }
         let (end, rest) = scratch.split_at_mut(len);
@@ -195,15 +205,25 @@ impl Integrator {
         let (curve, rest) = rest.split_at_mut(3 * len);
         let (own, rest) = rest.split_at_mut(own);
         let mut field = Field { system, u: at.u, p: at.p, table, scratch: own, calls: 0 };
-        let tableau = self.solver.tableau();
-        let k = &mut rest[..explicit_scratch(tableau, len)];
-        let mut method = Explicit { tableau, k, len };
-        let done = if self.solver.adaptive() {
-            let bounds = Bounds::new(self);
-            adaptive(&mut method, &mut field, at, &bounds, y, visit, work, (end, error, curve))
-        } else {
-            let steps = (self.steps, self.limit);
-            fixed(&mut method, &mut field, at, steps, y, visit, work, (end, curve))
+        let bounds = Bounds::new(self);
+        let memory = (end, error, curve);
+        let done = match self.solver.tableau() {
+            None => {
+                let mut method = Rosenbrock::new(system, at, table, rest);
+                let done = adaptive(&mut method, &mut field, at, &bounds, y, visit, work, memory);
+                work.jacobians += method.jacobians;
+                done
+            }
+            Some(tableau) => {
+                let k = &mut rest[..explicit_scratch(tableau, len)];
+                let mut method = Explicit { tableau, k, len };
+                if self.solver.adaptive() {
+                    adaptive(&mut method, &mut field, at, &bounds, y, visit, work, memory)
+                } else {
+                    let steps = (self.steps, self.limit);
+                    fixed(&mut method, &mut field, at, steps, y, visit, work, (memory.0, memory.2))
+                }
+            }
         };
         work.calls += field.calls;
         done

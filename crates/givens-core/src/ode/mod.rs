@@ -11,6 +11,8 @@ mod explicit;
 mod field;
 mod fixed;
 mod integrator;
+mod rodas4;
+mod rosenbrock;
 mod segment;
 mod stop;
 mod tableau;

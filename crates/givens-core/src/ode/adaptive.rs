@@ -1,10 +1,10 @@
 //! Steps as long as the tolerance allows.
 
 use super::control::Control;
-use super::field::{Failed, Field, Method};
+use super::field::{Failed, Field, Method, finite};
 use super::integrator::Integrator;
 use super::segment::{Segment, Visit};
-use super::{Steps, Stop, System, Tolerance, Why, Work, not_finite};
+use super::{Steps, Stop, System, Tolerance, Why, Work};
 use crate::model::At;
 use crate::scalar::Real;
 
@@ -43,10 +43,8 @@ pub(super) fn adaptive<T: Real, S: System, M: Method<T, S>>(
     let (length, sign) = (gap.abs(), 1.0_f64.copysign(gap));
     let mut stop = Stop { time, smallest: length, why: Why::StepTooSmall };
 
-    method.start(field, at.t, y).map_err(|fault| Stop { why: Why::System(fault), ..stop })?;
-    if let Some(component) = not_finite(y).or(not_finite(method.slopes().0)) {
-        return Err(Stop { why: Why::NotFinite { component }, ..stop });
-    }
+    let start = finite(y).and_then(|()| method.start(field, at.t, y));
+    start.map_err(|failed: Failed<S::Fault>| Stop { why: failed.into(), ..stop })?;
     // elapsed time is carried in f64, whatever the scalar
     let shortest = 16.0 * (T::EPSILON * length).max(f64::EPSILON * time.abs().max((time + gap).abs()));
     let mut h = match bounds.first {
@@ -60,7 +58,7 @@ pub(super) fn adaptive<T: Real, S: System, M: Method<T, S>>(
         h = h.min(bounds.longest);
         let rest = length - elapsed;
         // no tiny step is left over at the end of the gap
-        let last = rest <= bounds.longest && rest <= 1.01 * h;
+        let last = rest <= bounds.longest * (1.0 + 1e-12) && rest <= 1.01 * h;
         if last {
             h = rest;
         } else if h.is_nan() || h < shortest {
@@ -91,11 +89,7 @@ pub(super) fn adaptive<T: Real, S: System, M: Method<T, S>>(
                 h = control.too_large(h, size);
             }
             Err(failed) => {
-                stop.why = match failed {
-                    Failed::System(fault) => Why::System(fault),
-                    Failed::NotFinite(component) => Why::NotFinite { component },
-                    Failed::Singular => Why::StepTooSmall,
-                };
+                stop.why = failed.into();
                 h = control.failed(h);
             }
         }
@@ -114,12 +108,9 @@ fn attempt<T: Real, S: System, M: Method<T, S>>(
     y: &[T],
     (end, error): (&mut [T], &mut [T]),
 ) -> Result<f64, Failed<S::Fault>> {
-    let finite =
-        |values: &[T]| not_finite(values).map_or(Ok(()), |component| Err(Failed::NotFinite(component)));
     method.step(field, from, h, y, end)?;
     finite(end)?;
     method.finish(field, to, end)?;
-    finite(method.slopes().1)?;
     method.error(h, error);
     finite(error)?;
     Ok(field.system.error(tolerance, y, end, error))

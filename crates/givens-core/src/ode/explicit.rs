@@ -33,7 +33,7 @@ impl<T: Real, S: System> Method<T, S> for Explicit<'_, T> {
     const ERROR_ORDER: i32 = 5;
 
     #[inline(always)]
-    fn start(&mut self, field: &mut Field<S, T>, t: T, y: &[T]) -> Result<(), S::Fault> {
+    fn start(&mut self, field: &mut Field<S, T>, t: T, y: &[T]) -> Result<(), Failed<S::Fault>> {
         field.slope(t, y, &mut self.k[..self.len])
     }
 
@@ -63,7 +63,7 @@ impl<T: Real, S: System> Method<T, S> for Explicit<'_, T> {
     }
 
     #[inline(always)]
-    fn finish(&mut self, field: &mut Field<S, T>, t: T, end: &[T]) -> Result<(), S::Fault> {
+    fn finish(&mut self, field: &mut Field<S, T>, t: T, end: &[T]) -> Result<(), Failed<S::Fault>> {
         field.slope(t, end, &mut self.k[self.tableau.stages * self.len..][..self.len])
     }
 

@@ -1,8 +1,8 @@
 //! A step of a Rosenbrock method: a linear system per stage, no iteration (docs/algorithms.md O5).
 
-use super::field::{Failed, Field, Method};
+use super::System;
+use super::field::{Failed, Field, Method, finite};
 use super::rodas4::{A, ALPHA, C, DENSE, GAMMA, STAGES, TIME};
-use super::{System, not_finite};
 use crate::kernels::{lu, lu_order, lu_solve};
 use crate::model::At;
 use crate::scalar::{Dual2, Mask, Real, as_duals};
@@ -73,8 +73,9 @@ impl<'a, S: System, T: Real> Rosenbrock<'a, S, T> {
         for (f_t, dy) in self.f_t.iter_mut().zip(&*self.dy) {
             *f_t = dy.d;
         }
-        if let Some(component) = not_finite(self.f_t).or(not_finite(self.jacobian).map(|at| at / len)) {
-            return Err(Failed::NotFinite(component));
+        finite(self.f_t)?;
+        for (component, row) in self.jacobian.chunks_exact(len).enumerate() {
+            finite(row).map_err(|_: Failed<S::Fault>| Failed::NotFinite(component))?;
         }
         self.fresh = true;
         Ok(())
@@ -98,7 +99,7 @@ const fn row(i: usize) -> usize {
 impl<S: System, T: Real> Method<T, S> for Rosenbrock<'_, S, T> {
     const ERROR_ORDER: i32 = 4;
 
-    fn start(&mut self, field: &mut Field<S, T>, t: T, y: &[T]) -> Result<(), S::Fault> {
+    fn start(&mut self, field: &mut Field<S, T>, t: T, y: &[T]) -> Result<(), Failed<S::Fault>> {
         field.slope(t, y, &mut self.slopes[..y.len()])
     }
 
@@ -153,7 +154,7 @@ impl<S: System, T: Real> Method<T, S> for Rosenbrock<'_, S, T> {
         Ok(())
     }
 
-    fn finish(&mut self, field: &mut Field<S, T>, t: T, end: &[T]) -> Result<(), S::Fault> {
+    fn finish(&mut self, field: &mut Field<S, T>, t: T, end: &[T]) -> Result<(), Failed<S::Fault>> {
         field.slope(t, end, &mut self.slopes[end.len()..])
     }
 

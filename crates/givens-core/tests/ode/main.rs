@@ -1,0 +1,8 @@
+//! The solvers, through their public face.
+
+mod adaptive;
+mod orders;
+mod problems;
+mod stiff;
+mod stops;
+mod ways;

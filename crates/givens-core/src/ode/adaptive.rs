@@ -28,7 +28,6 @@ impl Bounds {
 }
 
 /// Integrates over the gap; `end` and `error` have the length of the state, `curve` three times that.
-#[inline(always)]
 pub(super) fn adaptive<T: Real, S: System, M: Method<T, S>>(
     method: &mut M,
     field: &mut Field<S, T>,
@@ -99,7 +98,6 @@ pub(super) fn adaptive<T: Real, S: System, M: Method<T, S>>(
 }
 
 /// One step, and the size of its error in tolerances.
-#[inline(always)]
 fn attempt<T: Real, S: System, M: Method<T, S>>(
     method: &mut M,
     field: &mut Field<S, T>,
@@ -116,7 +114,7 @@ fn attempt<T: Real, S: System, M: Method<T, S>>(
     Ok(field.system.error(tolerance, y, end, error))
 }
 
-/// A first step, from the sizes of y, f and the change of f over a short Euler step (after Hairer, Nørsett & Wanner 1993
+/// A first step, from the sizes of y, f and the change of f over a short Euler step (after Hairer, Nørsett & Wanner 1993,
 /// §II.4), in the system's own norm; a change of the units of time or state changes nothing.
 fn first_step<T: Real, S: System, M: Method<T, S>>(
     method: &mut M,
@@ -159,4 +157,64 @@ fn first_step<T: Real, S: System, M: Method<T, S>>(
         f64::INFINITY
     };
     found.min(100.0 * short).min(longest)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Bounds, Field, adaptive};
+    use crate::model::At;
+    use crate::ode::explicit::{Explicit, explicit_scratch};
+    use crate::ode::tableau::DP5;
+    use crate::ode::{Integrator, System, Tolerance, Work};
+    use crate::scalar::Real;
+
+    /// y'' = −y.
+    struct Oscillator;
+
+    impl System for Oscillator {
+        type Fault = ();
+        fn len(&self) -> usize {
+            2
+        }
+        fn scratch(&self) -> usize {
+            0
+        }
+        fn derivative<T: Real>(
+            &self,
+            _: &At<T>,
+            _: &[T],
+            y: &[T],
+            dy: &mut [T],
+            _: &mut [T],
+        ) -> Result<(), ()> {
+            (dy[0], dy[1]) = (y[1], -y[0]);
+            Ok(())
+        }
+        fn error<T: Real>(&self, tolerance: Tolerance, before: &[T], _: &[T], error: &[T]) -> f64 {
+            error[0].hypot(error[1]).first() / tolerance.of(before[0].hypot(before[1]).first())
+        }
+    }
+
+    #[test]
+    fn the_result_does_not_depend_on_the_first_step_to_ten_tolerances() {
+        let length = 7.0;
+        for rtol in [1e-4, 1e-7, 1e-10] {
+            for first in [None, Some(1e-12), Some(1e-6), Some(1e-2), Some(1.0), Some(7.0), Some(1e6)] {
+                let tolerance = Tolerance { rtol, atol: 0.0 };
+                let bounds =
+                    Bounds { first, ..Bounds::new(&Integrator { tolerance, ..Integrator::default() }) };
+                let (mut slopes, mut memory) = ([0.0; explicit_scratch(&DP5, 2)], [[0.0; 6]; 3]);
+                let mut method = Explicit { tableau: &DP5, k: &mut slopes, len: 2 };
+                let mut field =
+                    Field { system: &Oscillator, u: &[], p: &[], table: &[], scratch: &mut [], calls: 0 };
+                let at = At { t: 0.0, dt: length, u: &[], p: &[] };
+                let (mut y, mut work) = ([1.0, 0.0], Work::default());
+                let [end, error, curve] = &mut memory;
+                let memory = (&mut end[..2], &mut error[..2], &mut curve[..]);
+                adaptive(&mut method, &mut field, &at, &bounds, &mut y, None, &mut work, memory).unwrap();
+                let error = (y[0] - length.cos()).hypot(y[1] + length.sin()) / rtol;
+                assert!(error < 10.0, "first step {first:?}: {error} times {rtol:e}");
+            }
+        }
+    }
 }

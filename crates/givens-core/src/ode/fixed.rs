@@ -21,7 +21,6 @@ fn count<T: Real>(steps: Steps, gap: f64, limit: usize) -> Option<usize> {
 }
 
 /// Integrates over the gap; `end` has the length of the state, `curve` three times that.
-#[inline(always)]
 pub(super) fn fixed<T: Real, S: System, M: Method<T, S>>(
     method: &mut M,
     field: &mut Field<S, T>,

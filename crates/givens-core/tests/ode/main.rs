@@ -1,4 +1,5 @@
 //! The solvers, through their public face.
+#![allow(clippy::unwrap_used)]
 
 mod adaptive;
 mod orders;

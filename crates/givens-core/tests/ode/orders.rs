@@ -30,9 +30,9 @@ fn each_solver_has_its_order_at_the_end_and_within_the_steps() {
     for (solver, order) in ORDERS {
         let ((end, within), (half_end, half_within)) = (errors(solver, 64), errors(solver, 128));
         let (slope, slope_within) = ((end / half_end).log2(), (within / half_within).log2());
-        println!("{solver:?}: {end:.2e} slope {slope:.2}, within {within:.2e} slope {slope_within:.2}");
-        assert!((slope - order).abs() < 0.25, "{solver:?}: order {slope}");
-        assert!(slope_within > order - 0.25, "{solver:?}: dense output of order {slope_within}");
+        // from above: at these steps the next order still counts (dp5: 6.1, 5.8, 5.6, 5.4, 5.2 from 8 steps on)
+        assert!(slope > order - 0.1 && slope < order + 0.5, "{solver:?}: order {slope}");
+        assert!(slope_within > order - 0.1, "{solver:?}: dense output of order {slope_within}");
     }
 }
 

@@ -100,7 +100,9 @@ system!(
         dy[0] = T::of(10.0) * (y[1] - y[0]);
         dy[1] = y[0] * (T::of(28.0) - y[2]) - y[1];
         dy[2] = y[0] * y[1] - T::of(8.0 / 3.0) * y[2];
-        dy.iter_mut().for_each(|dy| *dy *= at.p[0]);
+        for dy in dy {
+            *dy *= at.p[0];
+        }
         Ok(())
     }
 );
@@ -116,11 +118,11 @@ system!(
 );
 
 system!(
-    /// y' = −1 where y ≥ 0; no derivative below.
+    /// y' = −1 where y ≥ ¼; no derivative below.
     Floor, 1, |at, table, y, dy| {
         let _ = (at, table);
         dy[0] = -T::one();
-        if y[0].first() < 0.0 { Err(Outside) } else { Ok(()) }
+        if y[0].first() < 0.25 { Err(Outside) } else { Ok(()) }
     }
 );
 
@@ -134,13 +136,16 @@ system!(
     }
 );
 
+/// Who reads the steps, if anybody does.
+pub type Visit<'v, T> = Option<&'v mut dyn FnMut(&Segment<T>)>;
+
 /// Integrates over [t, t + gap] in scratch of exactly the length asked for.
 pub fn solve<T: Real, S: System>(
     integrator: &Integrator,
     system: &S,
     span: (f64, f64),
     y: &mut [T],
-    visit: Option<&mut dyn FnMut(&Segment<T>)>,
+    visit: Visit<T>,
 ) -> (Result<(), Stop<S::Fault>>, Work) {
     solve_at_rate(1.0, integrator, system, span, y, visit)
 }
@@ -152,7 +157,7 @@ pub fn solve_at_rate<T: Real, S: System>(
     system: &S,
     (t, gap): (f64, f64),
     y: &mut [T],
-    visit: Option<&mut dyn FnMut(&Segment<T>)>,
+    visit: Visit<T>,
 ) -> (Result<(), Stop<S::Fault>>, Work) {
     integrator.check().unwrap();
     let (rate, one, mut work) = ([T::of(rate)], [T::one()], Work::default());

@@ -19,7 +19,6 @@ fn rodas4_takes_few_steps_through_the_jumps_of_van_der_pol() {
             let (done, work) = solve(&to(Solver::Rodas4, rtol), &VanDerPol, (0.0, t), &mut y, None);
             done.unwrap();
             let error = error(&y, &expected) / rtol;
-            println!("{rtol:e} t = {t}: error {error:.2} rtol, {work:?}");
             assert!(error < 10.0, "t = {t}: {error} times {rtol:e}");
             assert!(work.accepted + work.rejected < 3000, "{work:?}");
         }

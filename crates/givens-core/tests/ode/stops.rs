@@ -1,7 +1,7 @@
 //! What ends an integration early, and what is left then.
 
 use crate::problems::{Driven, Ends, Floor, Oscillator, Outside, equal, solve, to};
-use givens_core::ode::{Integrator, Solver, Steps, Tolerance, Why};
+use givens_core::ode::{Integrator, Segment, Solver, Steps, Tolerance, Why};
 
 #[test]
 fn a_boundary_of_the_domain_is_approached_until_steps_vanish() {
@@ -9,13 +9,12 @@ fn a_boundary_of_the_domain_is_approached_until_steps_vanish() {
         for gap in [1.5, 20.0] {
             let tolerance = Tolerance { rtol: 0.0, atol: 1e-6 };
             let integrator = Integrator { solver, tolerance, ..Integrator::default() };
-            let mut y = [0.83];
+            let mut y = [1.08];
             let (done, work) = solve(&integrator, &Floor, (3.0, gap), &mut y, None);
             let stop = done.unwrap_err();
             assert_eq!(stop.why, Why::System(Outside));
-            println!("{solver:?}: {stop:?} {work:?}");
             assert!((stop.time - 3.83).abs() < 1e-12, "{stop:?}");
-            assert!((y[0] - (3.83 - stop.time)).abs() < 1e-14, "{y:?}");
+            assert!((y[0] - (4.08 - stop.time)).abs() < 1e-14, "{y:?}");
             assert!(stop.smallest < 1e-12 && work.accepted + work.rejected < 200, "{stop:?} {work:?}");
         }
     }
@@ -24,12 +23,12 @@ fn a_boundary_of_the_domain_is_approached_until_steps_vanish() {
 #[test]
 fn equal_steps_stop_before_the_one_that_leaves_the_domain() {
     for solver in [Solver::Euler, Solver::Rk2, Solver::Rk4] {
-        let mut y = [1.0];
+        let mut y = [1.25];
         let (done, work) = solve(&equal(solver, 0.3), &Floor, (3.0, 3.0), &mut y, None);
         let stop = done.unwrap_err();
         assert_eq!((stop.why, stop.smallest), (Why::System(Outside), 0.3));
         let steps = work.accepted as f64;
-        assert!((stop.time - 3.0 - 0.3 * steps).abs() < 1e-14 && (y[0] - 1.0 + 0.3 * steps).abs() < 1e-14);
+        assert!((stop.time - 3.0 - 0.3 * steps).abs() < 1e-14 && (y[0] - 1.25 + 0.3 * steps).abs() < 1e-14);
         assert!((3.0..=4.0).contains(&steps));
     }
 }
@@ -41,7 +40,6 @@ fn a_slope_that_is_no_number_is_named_with_its_component_and_time() {
         let integrator = Integrator { steps: Steps::Longest(0.1), ..to(solver, 1e-6) };
         let (done, _) = solve(&integrator, &Ends, (0.0, 2.0), &mut y, None);
         let stop = done.unwrap_err();
-        println!("{solver:?}: {stop:?}");
         assert_eq!(stop.why, Why::NotFinite { component: 1 }, "{solver:?}");
         assert!((stop.time - 1.0).abs() < if solver.adaptive() { 1e-6 } else { 0.11 }, "{stop:?}");
         assert!(y.iter().all(|y: &f64| y.is_finite()));
@@ -62,9 +60,8 @@ fn a_tolerance_below_rounding_ends_in_words() {
     for solver in [Solver::Dp5, Solver::Rodas4] {
         // the rounding of a step shrinks with the step, until the step itself vanishes
         let mut y = [1.0, 0.0];
-        let (done, work) = solve(&to(solver, 1e-40), &Oscillator, (0.0, 10.0), &mut y, None);
+        let (done, _) = solve(&to(solver, 1e-40), &Oscillator, (0.0, 10.0), &mut y, None);
         let stop = done.unwrap_err();
-        println!("{solver:?} {stop:?} {work:?}");
         assert_eq!(stop.why, Why::StepTooSmall);
         assert!(stop.to_string().contains("rtol"), "{stop}");
     }
@@ -89,4 +86,16 @@ fn a_gap_of_nothing_changes_nothing_and_one_without_end_is_refused() {
             assert_eq!(done.unwrap_err().why, Why::StepTooSmall);
         }
     }
+}
+
+#[test]
+fn a_gap_that_ends_where_there_is_no_slope_ends_well_and_its_dense_output_is_a_parabola() {
+    let (mut plain, mut seen, mut middle) = ([1.25], [1.25], [0.0]);
+    let integrator = equal(Solver::Euler, 0.3);
+    let (done, work) = solve(&integrator, &Floor, (0.0, 1.2), &mut plain, None);
+    assert!(done.is_ok() && work.accepted == 4);
+    let mut visit = |segment: &Segment<f64>| segment.at(0.5, &mut middle);
+    assert!(solve(&integrator, &Floor, (0.0, 1.2), &mut seen, Some(&mut visit)).0.is_ok());
+    assert_eq!(plain, seen);
+    assert!(seen[0] < 0.25 && (middle[0] - 0.2).abs() < 1e-15, "{seen:?} {middle:?}");
 }

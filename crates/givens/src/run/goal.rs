@@ -29,7 +29,7 @@ pub struct Outcome {
 }
 
 impl Outcome {
-    pub(super) fn new(states: usize, measures: usize, goal: Goal) -> Self {
+    pub(crate) fn new(states: usize, measures: usize, goal: Goal) -> Self {
         Self { estimates: Estimates::new(states, measures, goal != Goal::Filter), failure: None }
     }
 

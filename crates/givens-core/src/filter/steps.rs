@@ -57,7 +57,7 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
             self.one_step(from + k as f64 * dt, dt, k > 0)?;
         }
         self.time = t;
-        self.step += 1;
+        self.step += usize::from(count > 0);
         Ok(())
     }
 

@@ -1,9 +1,11 @@
-//! A step of a filter allocates nothing.
+//! A step of a filter or a smoother allocates nothing.
 
 use givens::filter::{
-    Cdkf, Ckf, Ckf5, Ekf, Gaussian, Method, Qkf, SrCdkf, SrCkf, SrCkf5, SrEkf, SrQkf, SrUkf, Ukf,
+    Cdkf, Ckf, Ckf5, Ekf, Filter, Form, Gaussian, Method, Prior, Qkf, Sizes, SrCdkf, SrCkf, SrCkf5, SrEkf,
+    SrQkf, SrUkf, Ukf,
 };
 use givens::model::zoo::{CoordinatedTurn, RangeBearing};
+use givens::smoother::{FixedPoint, History};
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
@@ -65,6 +67,53 @@ fn no_method_allocates_in_a_step() {
     assert_eq!(allocations(SrQkf::default()), 0, "sr-qkf");
     assert_eq!(allocations(SrCkf::default()), 0, "sr-ckf");
     assert_eq!(allocations(SrCkf5::default()), 0, "sr-ckf5");
+}
+
+/// Allocations of a fixed-lag smoother over more rows than its ring holds, and of a fixed-point smoother beside it.
+fn smoothing_allocations<X: Method>(method: X) -> usize {
+    let (turn, radar) = (CoordinatedTurn::default(), RangeBearing::published());
+    let prior =
+        Gaussian::from_std(&[1000.0, 300.0, 1000.0, 0.0, -0.05], &[10.0, 3.2, 10.0, 3.2, 0.01]).unwrap();
+    let prior = Prior { time: 0.0, mean: prior.mean(), factor: prior.factor(), cov: prior.cov() };
+    let sizes = Sizes::new(5, 2);
+    let memory =
+        || vec![0.0_f64; Filter::<X, CoordinatedTurn, f64, Vec<f64>>::memory_len(&method, sizes, true)];
+    let mut filter = Filter::start_in(method, &turn, sizes, true, prior, memory()).unwrap();
+    let mut other = Filter::start_in(method, &turn, sizes, true, prior, memory()).unwrap();
+    let lag = vec![0.0; History::<f64, Vec<f64>>::memory_len(5, X::Form::SQUARE_ROOT, 3)];
+    let mut lag = History::new(5, X::Form::SQUARE_ROOT, lag);
+    let point = vec![0.0; FixedPoint::<f64, Vec<f64>>::memory_len(5)];
+    let mut mean = [0.0_f64; 5];
+
+    let before = ALLOCATIONS.get();
+    let mut point = FixedPoint::begin(&other, point).unwrap();
+    for k in 1..=8 {
+        lag.predict(&mut filter, f64::from(k)).unwrap();
+        point.predict(&mut other, f64::from(k)).unwrap();
+        let (x, y) = (filter.mean()[0] + 3.0, filter.mean()[2] - 2.0);
+        filter.update(&radar, &[x.hypot(y), y.atan2(x)]).unwrap();
+        other.update(&radar, &[x.hypot(y), y.atan2(x)]).unwrap();
+        point.update(&other).unwrap();
+        let mut visits = 0;
+        lag.smooth(&filter, 3, |_, belief| visits += usize::from(belief.mean[0].is_finite())).unwrap();
+        assert_eq!(visits, 1 + lag.len());
+        mean.copy_from_slice(filter.mean());
+        lag.smooth_means(&mut mean, 3, |_, _| {}).unwrap();
+    }
+    assert!(lag.len() == 3 && point.mean()[0].is_finite() && point.cov()[0] > 0.0);
+    ALLOCATIONS.get() - before
+}
+
+#[test]
+fn no_smoother_allocates_in_a_step() {
+    assert_eq!(smoothing_allocations(Ekf::default()), 0, "ekf");
+    assert_eq!(smoothing_allocations(Ukf::default()), 0, "ukf");
+    assert_eq!(smoothing_allocations(Qkf::default()), 0, "qkf");
+    assert_eq!(smoothing_allocations(SrEkf::default()), 0, "sr-ekf");
+    assert_eq!(smoothing_allocations(SrUkf::default()), 0, "sr-ukf");
+    assert_eq!(smoothing_allocations(SrCdkf::default()), 0, "sr-cdkf");
+    assert_eq!(smoothing_allocations(SrCkf::default()), 0, "sr-ckf");
+    assert_eq!(smoothing_allocations(SrCkf5::default()), 0, "sr-ckf5");
 }
 
 #[test]

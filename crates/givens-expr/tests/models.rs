@@ -9,12 +9,16 @@
 mod turn;
 
 use givens_core::model::zoo::{CoordinatedTurn, RangeBearing};
-use givens_core::model::{At, Observation, Transition};
+use givens_core::model::{At, Linear, Observation, Transition};
 use givens_core::scalar::{Dual2, Real};
 use turn::Turn;
 
 fn at<T: Real>(dt: f64) -> At<'static, T> {
     At { t: T::zero(), dt: T::of(dt), u: &[], p: &[] }
+}
+
+fn linear<'a, T>(value: &'a mut [T], image: &'a mut [T], stride: usize) -> Linear<'a, T> {
+    Linear { value, image, stride }
 }
 
 /// States of the turn, one of them straight on.
@@ -53,9 +57,9 @@ fn the_turn_is_the_turn_of_the_zoo<T: Real>(tolerance: f64) {
             let (mut found, mut wanted) = ([T::zero(); 5 * 7], [T::zero(); 5 * 7]);
             let (mut value, mut wanted_value) = ([T::zero(); 5], [T::zero(); 5]);
             let mut scratch = vec![T::zero(); model.transition_scratch(1)];
-            model.transition_linear(&at, &x, &root, &mut value, &mut found, 7, &mut scratch);
+            model.transition_linear(&at, &x, &root, linear(&mut value, &mut found, 7), &mut scratch);
             let mut scratch = vec![T::zero(); zoo.transition_scratch(1)];
-            zoo.transition_linear(&at, &x, &root, &mut wanted_value, &mut wanted, 7, &mut scratch);
+            zoo.transition_linear(&at, &x, &root, linear(&mut wanted_value, &mut wanted, 7), &mut scratch);
             agree(&value, &wanted_value, tolerance);
             agree(&found, &wanted, 10.0 * tolerance);
         }
@@ -116,8 +120,8 @@ fn the_radar_is_the_zoo_s() {
         let (mut found, mut wanted) = ([0.0; 12], [0.0; 12]);
         let (mut value, mut scratch) = ([0.0; 2], vec![0.0; 200]);
         assert!(model.observe_scratch(1) <= 200);
-        model.observe_linear(&at(0.0), &state, &ROOT, &mut value, &mut found, 6, &mut scratch);
-        zoo.observe_linear(&at(0.0), &state, &ROOT, &mut value, &mut wanted, 6, &mut scratch);
+        model.observe_linear(&at(0.0), &state, &ROOT, linear(&mut value, &mut found, 6), &mut scratch);
+        zoo.observe_linear(&at(0.0), &state, &ROOT, linear(&mut value, &mut wanted, 6), &mut scratch);
         agree(&found, &wanted, 1e-15);
     }
     let (mut found, mut wanted) = ([1.0; 4], [0.0; 4]);

@@ -6,6 +6,7 @@
 mod equivalences;
 mod faults;
 mod linear;
+mod memory;
 mod order;
 mod precision;
 mod rules;

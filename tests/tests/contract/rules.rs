@@ -1,6 +1,6 @@
 //! Rules integrate polynomials of a Gaussian to their degree.
 
-use givens::model::{At, Map, linear_by_duals, linear_scratch};
+use givens::model::{At, Linear, Map, linear_by_duals, linear_scratch};
 use givens::rule::{
     CentralDifference, Cubature3, Cubature5, GaussHermite, Rule, Spread, Taylor, Unscented, spread_scratch,
 };
@@ -39,17 +39,8 @@ impl Map for Polynomial {
             *image = self.at(&point);
         }
     }
-    fn linear<T: Real>(
-        &self,
-        at: &At<T>,
-        x: &[T],
-        s: &[T],
-        value: &mut [T],
-        out: &mut [T],
-        stride: usize,
-        scratch: &mut [T],
-    ) {
-        linear_by_duals(1, at, x, s, value, out, stride, scratch, |_, x, y| y[0] = self.at(x));
+    fn linear<T: Real>(&self, at: &At<T>, x: &[T], s: &[T], out: Linear<T>, scratch: &mut [T]) {
+        linear_by_duals(1, at, x, s, out, scratch, |_, x, y| y[0] = self.at(x));
     }
 }
 

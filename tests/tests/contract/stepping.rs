@@ -98,7 +98,7 @@ fn smooths_like_the_registry<X: Method>(name: &str, method: X) {
         filter.update_present(&problem.sensor, row.z, &present(row.z)).unwrap();
         point.predict(&mut second, row.time).unwrap();
         second.update_present(&problem.sensor, row.z, &present(row.z)).unwrap();
-        point.update(&second);
+        point.update(&second).unwrap();
     }
     assert_eq!(history.len(), rows);
     let close = |x: &[f64], y: &[f64]| x.iter().zip(y).all(|(x, y)| (x - y).abs() < 1e-11);
@@ -126,10 +126,12 @@ fn means_alone<X: Method>(name: &str, method: X) {
     let problem = problem();
     let est = run(name, &problem, Goal::Interval);
     let mut filter = start(method, &problem, true);
-    let mut records = Vec::new();
+    let (n, rows, mut records) = (problem.mean.len(), problem.z.len(), Vec::new());
+    let memory = vec![0.0; History::<f64, Vec<f64>>::memory_len(n, X::Form::SQUARE_ROOT, rows)];
+    let mut history = History::new(n, X::Form::SQUARE_ROOT, memory);
     for row in problem.rows() {
         let mean = filter.mean().to_vec();
-        filter.predict(row.time).unwrap();
+        history.predict(&mut filter, row.time).unwrap();
         records.push((mean, filter.mean().to_vec(), filter.backward().0.to_vec()));
         filter.update_present(&problem.sensor, row.z, &present(row.z)).unwrap();
     }
@@ -147,6 +149,10 @@ fn means_alone<X: Method>(name: &str, method: X) {
         mean_back(&passage, &mut smoothed, &mut scratch);
         assert_eq!(smoothed, est.mean(k - 1), "{name}, row {}", k - 1);
     }
+    let mut mean = filter.mean().to_vec();
+    let check =
+        |age: usize, mean: &[f64]| assert_eq!(mean, est.mean(rows - 1 - age), "{name}, {age} rows ago");
+    history.smooth_means(&mut mean, rows - 1, check).unwrap();
 }
 
 #[test]

@@ -1,14 +1,47 @@
 //! The methods by name: a type for each, its registry name in camel case, its options as fields.
 
 use super::form::{Covariance, Form, SquareRoot};
+use super::start::{Layout, Sizes};
 use super::update::Block;
 #[cfg(feature = "alloc")]
-use super::{Fault, Filter, Gaussian, Prior, Sizes, StepError};
+use super::{Fault, Filter, Gaussian, Grow, Prior, StepError};
 #[cfg(feature = "alloc")]
 use crate::model::Transition;
 use crate::rule::{CentralDifference, Cubature3, Cubature5, GaussHermite, Rule, Taylor, Unscented};
 #[cfg(feature = "alloc")]
 use core::borrow::Borrow;
+
+/// What a method's type brings beside its parts: its defaults and the length of its memory, as constants.
+macro_rules! constants {
+    ($name:ident: $rule:ident { $($field:ident = $default:expr),* } $($update:ident)?) => {
+        impl $name {
+            /// The method with its options as in the papers, as a constant.
+            pub const DEFAULT: Self = Self { $($field: $default,)* $($update: Block::Joint)? };
+
+            /// Scalars of memory of a filter of these sizes.
+            #[must_use]
+            pub const fn memory(&self, sizes: Sizes) -> usize {
+                Layout::new(sizes, self.parts().shape_for(sizes.states), false).len
+            }
+
+            /// Scalars of memory of a filter of these sizes whose predictions leave what a smoother needs.
+            #[must_use]
+            pub const fn smoothing_memory(&self, sizes: Sizes) -> usize {
+                Layout::new(sizes, self.parts().shape_for(sizes.states), true).len
+            }
+
+            const fn parts(&self) -> $rule {
+                $rule { $($field: self.$field,)* }
+            }
+        }
+
+        impl Default for $name {
+            fn default() -> Self {
+                Self::DEFAULT
+            }
+        }
+    };
+}
 
 /// A discrete-time filter as its parts: a rule, a form and a measurement update.
 pub trait Method: Copy {
@@ -37,8 +70,8 @@ pub trait Method: Copy {
         let n = model.states();
         self.rule().check(n).map_err(|error| StepError { fault: Fault::Option(error), time: t0, step: 0 })?;
         let sizes = Sizes::of_model(model, self.rule().shape(n));
-        let memory =
-            alloc::vec![0.0; Filter::<Self, M, f64, alloc::vec::Vec<f64>>::memory_len(self, sizes, false)];
+        let mut memory = alloc::vec::Vec::new();
+        memory.grow(Filter::<Self, M, f64, alloc::vec::Vec<f64>>::memory_len(self, sizes, false));
         let prior = prior.borrow();
         let prior = Prior { time: t0, mean: prior.mean(), factor: prior.factor(), cov: prior.cov() };
         Filter::start_in(*self, model, sizes, false, prior, memory)
@@ -53,17 +86,13 @@ macro_rules! methods {
             $(#[doc = $about] pub $field: $type,)*
         }
 
-        impl Default for $cov {
-            fn default() -> Self {
-                Self { $($field: $default,)* }
-            }
-        }
+        constants!($cov: $rule { $($field = $default),* });
 
         impl Method for $cov {
             type Rule = $rule;
             type Form = Covariance;
             fn rule(&self) -> $rule {
-                $rule { $($field: self.$field,)* }
+                self.parts()
             }
         }
 
@@ -75,17 +104,13 @@ macro_rules! methods {
             pub update: Block,
         }
 
-        impl Default for $sr {
-            fn default() -> Self {
-                Self { $($field: $default,)* update: Block::Joint }
-            }
-        }
+        constants!($sr: $rule { $($field = $default),* } update);
 
         impl Method for $sr {
             type Rule = $rule;
             type Form = SquareRoot;
             fn rule(&self) -> $rule {
-                $rule { $($field: self.$field,)* }
+                self.parts()
             }
             fn block(&self) -> Block {
                 self.update
@@ -98,6 +123,27 @@ methods! {
     /// `ckf`: the cubature Kalman filter (2009).
     Ckf,
     /// `sr-ckf`: the square-root cubature Kalman filter (2009 Appendix B; 2010 eq 36).
+    ///
+    /// Without an allocator, in memory whose length is a constant:
+    ///
+    /// ```
+    /// use givens_core::filter::{Filter, Prior, Sizes, SrCkf};
+    /// use givens_core::model::zoo::{CoordinatedTurn, RangeBearing};
+    ///
+    /// const SIZES: Sizes = Sizes::new(5, 2);
+    /// let (model, radar) = (CoordinatedTurn::default(), RangeBearing::published());
+    /// let mut factor = [0.0; 25];
+    /// for (i, std) in [10.0, 3.2, 10.0, 3.2, 0.01].into_iter().enumerate() {
+    ///     factor[6 * i] = std;
+    /// }
+    /// let prior = Prior { time: 0.0, mean: &[1000.0, 300.0, 1000.0, 0.0, -0.05], factor: &factor, cov: &[] };
+    /// let memory = [0.0_f32; SrCkf::DEFAULT.memory(SIZES)];
+    /// let mut f = Filter::start_in(SrCkf::DEFAULT, &model, SIZES, false, prior, memory)?;
+    /// f.predict(1.0)?;
+    /// f.update(&radar, &[1640.0, 0.65])?;
+    /// assert!((f.mean()[0] - 1300.0).abs() < 20.0);
+    /// # Ok::<(), givens_core::filter::StepError>(())
+    /// ```
     SrCkf: Cubature3 {};
     /// `ckf5`: the fifth-degree cubature Kalman filter (Jia, Xin & Cheng 2013).
     Ckf5,

@@ -70,10 +70,29 @@ impl Sizes {
     /// Whether all of `other` fits into these.
     #[must_use]
     pub fn hold(&self, other: &Sizes) -> bool {
-        self.measures >= other.measures
+        self.states == other.states
+            && self.measures >= other.measures
             && self.measurement_noise >= other.measurement_noise
             && self.model >= other.model
+            && self.process_noise >= other.process_noise
+            && self.controls >= other.controls
+            && self.parameters >= other.parameters
     }
+}
+
+/// Whether the length of a filter's memory is a number that a `usize` holds; no memory is longer anyway.
+const fn countable(sizes: Sizes, shape: Shape) -> bool {
+    let rows = sizes.states.saturating_add(sizes.measures);
+    let noises = sizes.process_noise.saturating_add(sizes.measurement_noise);
+    let images = shape.points.saturating_add(shape.plus).saturating_add(shape.minus);
+    let alone = shape
+        .table
+        .saturating_add(sizes.model)
+        .saturating_add(sizes.controls)
+        .saturating_add(sizes.parameters);
+    // every array of a filter is a fraction of this
+    rows.saturating_mul(rows.saturating_add(noises).saturating_add(images)).saturating_add(alone)
+        < usize::MAX / 128
 }
 
 /// Where the arrays of a filter stand in its memory.
@@ -90,6 +109,9 @@ pub(crate) struct Layout {
 impl Layout {
     pub const fn new(sizes: Sizes, shape: Shape, smoothing: bool) -> Self {
         let Sizes { states: n, process_noise: q, measures: d, measurement_noise: r, .. } = sizes;
+        if !countable(sizes, shape) {
+            return Self { sizes, shape, smoothing, len: usize::MAX };
+        }
         // mean, factor and covariance; innovation (measured, predicted, ν, factor, white, NIS, log-likelihood); gain and
         // conditional root, twice where a gap of several steps is chained
         let belief = n + 2 * n * n;

@@ -96,7 +96,7 @@ pub struct Prior<'a> {
     pub mean: &'a [f64],
     /// Lower triangular, n × n.
     pub factor: &'a [f64],
-    /// n × n.
+    /// n × n; in square-root form it may be empty.
     pub cov: &'a [f64],
 }
 
@@ -117,13 +117,22 @@ impl<'m, X: Method, M: Transition, T: Real, B: AsMut<[T]>> Filter<'m, X, M, T, B
         let n = sizes.states;
         let fail = |fault| StepError { fault, time: prior.time, step: 0 };
         method.rule().check(n).map_err(|error| fail(Fault::Option(error)))?;
-        let layout = Layout::new(sizes, method.rule().shape(n), smoothing);
+        let shape = method.rule().shape(n);
+        let layout = Layout::new(sizes, shape, smoothing);
+        let (square, needs) = (n.saturating_mul(n), Sizes::of_model(model, shape));
+        let cov = if X::Form::SQUARE_ROOT && prior.cov.is_empty() { 0 } else { square };
+        let at_least = |of, needed: usize, given: usize| (of, needed, needed.min(given));
         for (of, expected, found) in [
             ("the model's state", n, model.states()),
+            at_least("the state", 1, n),
             ("mean", n, prior.mean.len()),
-            ("factor", n * n, prior.factor.len()),
-            ("covariance", n * n, prior.cov.len()),
-            ("the filter's memory", layout.len, layout.len.min(memory.as_mut().len())),
+            ("factor", square, prior.factor.len()),
+            ("covariance", cov, prior.cov.len()),
+            at_least("the sizes' process noise", needs.process_noise, sizes.process_noise),
+            at_least("the sizes' controls", needs.controls, sizes.controls),
+            at_least("the sizes' parameters", needs.parameters, sizes.parameters),
+            at_least("the sizes' scratch for the model", needs.model, sizes.model),
+            at_least("the filter's memory", layout.len, memory.as_mut().len()),
         ] {
             if expected != found {
                 return Err(fail(Fault::Length { of, expected, found }));
@@ -148,7 +157,7 @@ impl<'m, X: Method, M: Transition, T: Real, B: AsMut<[T]>> Filter<'m, X, M, T, B
         Ok(Self { method, model, layout, time, step: 0, present: 0, controlled, memory, scalar })
     }
 
-    /// Scalars of memory that a filter of these sizes needs.
+    /// Scalars of memory that a filter of these sizes needs; `memory` of a method's type is the same as a constant.
     #[must_use]
     pub fn memory_len(method: &X, sizes: Sizes, smoothing: bool) -> usize {
         Layout::new(sizes, method.rule().shape(sizes.states), smoothing).len

@@ -19,7 +19,9 @@ pub trait Grow<T>: AsRef<[T]> + AsMut<[T]> {
 #[cfg(feature = "alloc")]
 impl<T: Real> Grow<T> for alloc::vec::Vec<T> {
     fn grow(&mut self, len: usize) {
-        self.resize(len.max(self.len()), T::zero());
+        if self.try_reserve_exact(len.saturating_sub(self.len())).is_ok() {
+            self.resize(len.max(self.len()), T::zero());
+        }
     }
 }
 
@@ -136,6 +138,11 @@ impl<X: Method, M: Transition, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
             ("the sensor's state", self.layout.sizes.states, sensor.states()),
             ("measurement", d, z.len()),
             ("present", d, present.map_or(d, <[bool]>::len)),
+            (
+                "the sensor's parameters",
+                sensor.parameters(),
+                sensor.parameters().min(self.layout.sizes.parameters),
+            ),
             ("the sensor's controls", sensor.controls(), sensor.controls().min(self.layout.sizes.controls)),
         ] {
             if expected != found {

@@ -38,7 +38,8 @@ pub fn downdate<T: Real>(l: &mut [T], n: usize, stride: usize, v: &mut [T]) -> H
             fold(l, n, stride, k, absent);
         }
         let spent = r2.abs().le(rounding * size) & !untouched & !absent;
-        health.note(!untouched & !absent & !(-(rounding * size)).le(r2), k);
+        let negative = !(-(rounding * size)).le(r2) | !r2.finite();
+        health.note(!untouched & !absent & negative, k);
         let cleared = spent | absent;
         let still = cleared | untouched;
         let r = T::select(cleared, zero, T::select(untouched, pivot, r2.sqrt()));
@@ -97,7 +98,7 @@ mod tests {
 
     #[test]
     fn a_zero_pivot_of_both_ends_its_column_only() {
-        let mut l = [0.0, 0.0, 0.0, 2.0];
+        let mut l = [0.0_f64, 0.0, 0.0, 2.0];
         let mut v = [0.0, 1.0];
         assert!(super::downdate(&mut l, 2, 2, &mut v).failed().is_none());
         assert!((l[3] - 3.0f64.sqrt()).abs() < 1e-15);

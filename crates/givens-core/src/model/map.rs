@@ -3,6 +3,29 @@
 use super::{At, Observation, Transition};
 use crate::scalar::{Dual2, Real, as_duals};
 
+/// Where the first-order part of a map g is written: its value, and the image J S of a root S by its Jacobian J.
+#[derive(Debug)]
+pub struct Linear<'a, T> {
+    /// g(x), length d.
+    pub value: &'a mut [T],
+    /// J S, d rows of length `stride`, in the first n columns; the others are left alone.
+    pub image: &'a mut [T],
+    /// Length of a row of `image`, at least n.
+    pub stride: usize,
+}
+
+impl<T> Linear<'_, T> {
+    /// The first `rows` outputs, and the others: for a map that is two, one above the other.
+    #[inline(always)]
+    #[must_use]
+    pub fn split_at(self, rows: usize) -> (Self, Self) {
+        let Linear { value, image, stride } = self;
+        let (value, lower_value) = value.split_at_mut(rows);
+        let (image, lower_image) = image.split_at_mut(rows * stride);
+        (Linear { value, image, stride }, Linear { value: lower_value, image: lower_image, stride })
+    }
+}
+
 /// A map that a rule pushes a Gaussian through: a transition or a sensor, seen alike.
 pub trait Map {
     /// Length d of the result.
@@ -16,17 +39,8 @@ pub trait Map {
     fn scratch(&self, points: usize) -> usize;
     /// All points at once: `x` is n × `points` and `out` d × `points`, component by component.
     fn points<T: Real>(&self, at: &At<T>, points: usize, x: &[T], out: &mut [T], scratch: &mut [T]);
-    /// g(x) to `value` and J S to the first n columns of `out`, in rows of length `stride`.
-    fn linear<T: Real>(
-        &self,
-        at: &At<T>,
-        x: &[T],
-        s: &[T],
-        value: &mut [T],
-        out: &mut [T],
-        stride: usize,
-        scratch: &mut [T],
-    );
+    /// The first-order part: g(x) and J S, with J = ∂g/∂x and `s` = S, n × n.
+    fn linear<T: Real>(&self, at: &At<T>, x: &[T], s: &[T], out: Linear<T>, scratch: &mut [T]);
 }
 
 /// The transition of a model, as a map.
@@ -45,17 +59,8 @@ impl<M: Transition> Map for Moving<'_, M> {
         self.0.transition_points(at, points, x, out, scratch);
     }
     #[inline(always)]
-    fn linear<T: Real>(
-        &self,
-        at: &At<T>,
-        x: &[T],
-        s: &[T],
-        value: &mut [T],
-        out: &mut [T],
-        stride: usize,
-        scratch: &mut [T],
-    ) {
-        self.0.transition_linear(at, x, s, value, out, stride, scratch);
+    fn linear<T: Real>(&self, at: &At<T>, x: &[T], s: &[T], out: Linear<T>, scratch: &mut [T]) {
+        self.0.transition_linear(at, x, s, out, scratch);
     }
 }
 
@@ -78,24 +83,15 @@ impl<H: Observation> Map for Sensed<'_, H> {
         self.0.observe_points(at, points, x, out, scratch);
     }
     #[inline(always)]
-    fn linear<T: Real>(
-        &self,
-        at: &At<T>,
-        x: &[T],
-        s: &[T],
-        value: &mut [T],
-        out: &mut [T],
-        stride: usize,
-        scratch: &mut [T],
-    ) {
-        self.0.observe_linear(at, x, s, value, out, stride, scratch);
+    fn linear<T: Real>(&self, at: &At<T>, x: &[T], s: &[T], out: Linear<T>, scratch: &mut [T]) {
+        self.0.observe_linear(at, x, s, out, scratch);
     }
 }
 
 /// Scratch of [`points_one_by_one`].
 #[must_use]
 pub const fn points_scratch(n: usize, d: usize) -> usize {
-    n + d
+    n.saturating_add(d)
 }
 
 /// Evaluates a map of n inputs and d outputs at points stored component by component, one after the other.
@@ -125,7 +121,7 @@ pub fn points_one_by_one<T: Real>(
 /// Scratch of [`linear_by_duals`]; `beside` is the number of controls and parameters together.
 #[must_use]
 pub const fn linear_scratch(n: usize, d: usize, beside: usize) -> usize {
-    3 * (n + d + beside)
+    n.saturating_add(d).saturating_add(beside).saturating_mul(3)
 }
 
 /// The first-order part of a map by duals, one direction (a column of `s`) after the other.
@@ -135,15 +131,13 @@ pub fn linear_by_duals<T: Real>(
     at: &At<T>,
     x: &[T],
     s: &[T],
-    value: &mut [T],
-    out: &mut [T],
-    stride: usize,
+    out: Linear<T>,
     scratch: &mut [T],
     map: impl Fn(&At<Dual2<T>>, &[Dual2<T>], &mut [Dual2<T>]),
 ) {
-    let n = x.len();
+    let (n, Linear { value, image, stride }) = (x.len(), out);
     let (point, rest) = as_duals(scratch).split_at_mut(n);
-    let (image, rest) = rest.split_at_mut(d);
+    let (y, rest) = rest.split_at_mut(d);
     let (u, rest) = rest.split_at_mut(at.u.len());
     let p = &mut rest[..at.p.len()];
     for (dual, &v) in u.iter_mut().zip(at.u).chain(p.iter_mut().zip(at.p)) {
@@ -154,10 +148,10 @@ pub fn linear_by_duals<T: Real>(
         for i in 0..n {
             point[i] = Dual2::along(x[i], s[i * n + j]);
         }
-        map(&at, point, image);
+        map(&at, point, y);
         for i in 0..d {
-            out[i * stride + j] = image[i].d;
-            value[i] = image[i].v;
+            image[i * stride + j] = y[i].d;
+            value[i] = y[i].v;
         }
     }
 }

@@ -6,7 +6,9 @@ mod stack;
 mod transition;
 pub mod zoo;
 
-pub use map::{Map, Moving, Sensed, linear_by_duals, linear_scratch, points_one_by_one, points_scratch};
+pub use map::{
+    Linear, Map, Moving, Sensed, linear_by_duals, linear_scratch, points_one_by_one, points_scratch,
+};
 pub use observation::Observation;
 pub use transition::Transition;
 

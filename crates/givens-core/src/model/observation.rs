@@ -1,6 +1,6 @@
 //! Sensors.
 
-use super::map::{linear_by_duals, linear_scratch, points_one_by_one, points_scratch};
+use super::map::{Linear, linear_by_duals, linear_scratch, points_one_by_one, points_scratch};
 use super::{At, Noise};
 use crate::kernels::{Health, cholesky};
 use crate::scalar::Real;
@@ -85,19 +85,9 @@ pub trait Observation {
         points_one_by_one(n, d, points, x, out, scratch, |x, out| self.observe(at, x, out));
     }
 
-    /// The first-order part: h(x) to `value`, and H S to the first n columns of `out`, which has rows of
-    /// length `stride`. H = ∂h/∂x, and `s` is n × n.
-    fn observe_linear<T: Real>(
-        &self,
-        at: &At<T>,
-        x: &[T],
-        s: &[T],
-        value: &mut [T],
-        out: &mut [T],
-        stride: usize,
-        scratch: &mut [T],
-    ) {
+    /// The first-order part: h(x), and H S with H = ∂h/∂x and `s` = S, n × n.
+    fn observe_linear<T: Real>(&self, at: &At<T>, x: &[T], s: &[T], out: Linear<T>, scratch: &mut [T]) {
         let d = self.measures();
-        linear_by_duals(d, at, x, s, value, out, stride, scratch, |at, x, out| self.observe(at, x, out));
+        linear_by_duals(d, at, x, s, out, scratch, |at, x, out| self.observe(at, x, out));
     }
 }

@@ -1,6 +1,6 @@
 //! Several sensors are one: a tuple of observations stacks their measures in order.
 
-use super::{At, Noise, Observation};
+use super::{At, Linear, Noise, Observation};
 use crate::kernels::Health;
 use crate::scalar::Real;
 
@@ -68,20 +68,9 @@ impl<A: Observation, B: Observation> Observation for (A, B) {
         self.0.observe_scratch(points).max(self.1.observe_scratch(points))
     }
     #[inline(always)]
-    fn observe_linear<T: Real>(
-        &self,
-        at: &At<T>,
-        x: &[T],
-        s: &[T],
-        value: &mut [T],
-        out: &mut [T],
-        stride: usize,
-        scratch: &mut [T],
-    ) {
-        let first = self.0.measures();
-        let (value_a, value_b) = value.split_at_mut(first);
-        let (out_a, out_b) = out.split_at_mut(first * stride);
-        self.0.observe_linear(at, x, s, value_a, out_a, stride, scratch);
-        self.1.observe_linear(at, x, s, value_b, out_b, stride, scratch);
+    fn observe_linear<T: Real>(&self, at: &At<T>, x: &[T], s: &[T], out: Linear<T>, scratch: &mut [T]) {
+        let (a, b) = out.split_at(self.0.measures());
+        self.0.observe_linear(at, x, s, a, scratch);
+        self.1.observe_linear(at, x, s, b, scratch);
     }
 }

@@ -1,6 +1,6 @@
 //! Discrete-time dynamics.
 
-use super::map::{linear_by_duals, linear_scratch, points_one_by_one, points_scratch};
+use super::map::{Linear, linear_by_duals, linear_scratch, points_one_by_one, points_scratch};
 use super::{At, Noise};
 use crate::kernels::{Health, cholesky};
 use crate::scalar::Real;
@@ -88,19 +88,9 @@ pub trait Transition {
         points_one_by_one(n, n, points, x, out, scratch, |x, out| self.transition(at, x, out));
     }
 
-    /// The first-order part: f(x) to `value`, and J S to the first n columns of `out`, which has rows of
-    /// length `stride`. J = ∂f/∂x, and `s` is n × n.
-    fn transition_linear<T: Real>(
-        &self,
-        at: &At<T>,
-        x: &[T],
-        s: &[T],
-        value: &mut [T],
-        out: &mut [T],
-        stride: usize,
-        scratch: &mut [T],
-    ) {
+    /// The first-order part: f(x), and J S with J = ∂f/∂x and `s` = S, n × n.
+    fn transition_linear<T: Real>(&self, at: &At<T>, x: &[T], s: &[T], out: Linear<T>, scratch: &mut [T]) {
         let n = self.states();
-        linear_by_duals(n, at, x, s, value, out, stride, scratch, |at, x, out| self.transition(at, x, out));
+        linear_by_duals(n, at, x, s, out, scratch, |at, x, out| self.transition(at, x, out));
     }
 }

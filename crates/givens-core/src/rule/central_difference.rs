@@ -19,6 +19,14 @@ impl Default for CentralDifference {
     }
 }
 
+impl CentralDifference {
+    /// The sizes for a state of length `n`, as a constant.
+    #[must_use]
+    pub const fn shape_for(self, n: usize) -> Shape {
+        Shape { table: 0, points: n.saturating_mul(2).saturating_add(1), plus: n, minus: 0 }
+    }
+}
+
 impl Rule for CentralDifference {
     fn check(&self, _: usize) -> Result<(), RuleError> {
         // further points overflow
@@ -29,7 +37,7 @@ impl Rule for CentralDifference {
     }
 
     fn shape(&self, n: usize) -> Shape {
-        Shape { table: 0, points: 2 * n + 1, plus: n, minus: 0 }
+        self.shape_for(n)
     }
 
     fn rounding(&self, n: usize) -> f64 {

@@ -1,7 +1,7 @@
 //! Gauss–Hermite quadrature on a tensor grid.
 
 use super::points::TABLE_STATES;
-use super::{Pairs, PointRule, RuleError};
+use super::{Pairs, PointRule, RuleError, Shape};
 use crate::scalar::Real;
 
 /// pⁿ points, the roots of the probabilists' Hermite polynomial of degree p along every axis: exact for
@@ -22,9 +22,20 @@ impl Default for GaussHermite {
 const GRID: usize = 1 << 21;
 
 impl GaussHermite {
+    /// The sizes for a state of length `n`, as a constant.
+    #[must_use]
+    pub const fn shape_for(self, n: usize) -> Shape {
+        self.half_grid(n).shape(n, if self.points % 2 == 1 { Some(1.0) } else { None })
+    }
+
     /// pⁿ, or `usize::MAX` if it does not fit.
-    fn grid(self, n: usize) -> usize {
-        u32::try_from(n).ok().and_then(|n| self.points.checked_pow(n)).unwrap_or(usize::MAX)
+    const fn grid(self, n: usize) -> usize {
+        self.points.saturating_pow(if n > TABLE_STATES { u32::MAX } else { n as u32 })
+    }
+
+    /// Node i of the grid and node pⁿ − 1 − i are opposite.
+    const fn half_grid(self, n: usize) -> Pairs {
+        Pairs::Table { count: self.grid(n) / 2, negative: 0 }
     }
 }
 
@@ -44,9 +55,8 @@ impl PointRule for GaussHermite {
     fn centre(&self, n: usize) -> Option<f64> {
         (self.points % 2 == 1).then(|| (0..n).fold(1.0, |product, _| product * weight(self.points, 0.0)))
     }
-    /// Node i of the grid and node pⁿ − 1 − i are opposite.
     fn pairs(&self, n: usize) -> Pairs {
-        Pairs::Table { count: self.grid(n) / 2, negative: 0 }
+        self.half_grid(n)
     }
     fn pair(&self, l: usize, xi: &mut [f64]) -> f64 {
         let mut digits = l;

@@ -10,8 +10,8 @@ use crate::scalar::Real;
 pub enum Pairs {
     /// ±radius e_i, one pair along each axis, all of one positive weight 1/(2 radius²).
     Axes {
-        /// Distance of the points from the mean, in standard deviations.
-        radius: f64,
+        /// The square of the points' distance from the mean, in standard deviations.
+        radius2: f64,
         /// The weight of b² in the covariance, b being what the curvature moves the mean by: w^c₀ − w₀ − 1 + radius²/n,
         /// with the centre's weights in covariance and mean.
         bend: f64,
@@ -23,6 +23,35 @@ pub enum Pairs {
         /// How many of them, standing last, have a negative weight.
         negative: usize,
     },
+}
+
+impl Pairs {
+    /// The sizes of a rule of these pairs for a state of length `n`. Of the weight of the point at the mean only the
+    /// sign counts.
+    #[must_use]
+    pub const fn shape(self, n: usize, centre: Option<f64>) -> Shape {
+        match self {
+            Pairs::Axes { bend, .. } => Shape {
+                table: 0,
+                points: n.saturating_mul(2).saturating_add(1),
+                plus: n.saturating_add((bend > 0.0) as usize),
+                minus: (bend < 0.0) as usize,
+            },
+            Pairs::Table { count, negative } => {
+                let (plus, minus) = match centre {
+                    Some(weight) if weight < 0.0 => (0, 1),
+                    Some(_) => (1, 0),
+                    None => (0, 0),
+                };
+                Shape {
+                    table: count.saturating_mul(n.saturating_add(2)),
+                    points: count.saturating_mul(2).saturating_add(1),
+                    plus: count.saturating_sub(negative).saturating_mul(2).saturating_add(plus),
+                    minus: negative.saturating_mul(2).saturating_add(minus),
+                }
+            }
+        }
+    }
 }
 
 /// A rule that is a set of weighted unit points, symmetric about zero: E\[g\] ≈ Σ w_i g(m + S ξ_i).
@@ -57,32 +86,13 @@ impl<R: PointRule> Rule for R {
     }
 
     fn shape(&self, n: usize) -> Shape {
-        match self.pairs(n) {
-            Pairs::Axes { bend, .. } => Shape {
-                table: 0,
-                points: 2 * n + 1,
-                plus: n + usize::from(bend > 0.0),
-                minus: usize::from(bend < 0.0),
-            },
-            Pairs::Table { count, negative } => {
-                let (plus, minus) = match self.centre(n) {
-                    Some(weight) if weight < 0.0 => (0, 1),
-                    Some(_) => (1, 0),
-                    None => (0, 0),
-                };
-                Shape {
-                    table: count * (n + 2),
-                    points: 2 * count + 1,
-                    plus: 2 * (count - negative) + plus,
-                    minus: 2 * negative + minus,
-                }
-            }
-        }
+        self.pairs(n).shape(n, self.centre(n))
     }
 
     fn rounding(&self, n: usize) -> f64 {
         match self.pairs(n) {
-            Pairs::Axes { radius, bend } => {
+            Pairs::Axes { radius2, bend } => {
+                let radius = Real::sqrt(radius2);
                 Real::sqrt(n as f64) / radius * (1.0 + Real::sqrt(Real::abs(bend)) / radius)
             }
             Pairs::Table { .. } => 1.0,
@@ -118,8 +128,8 @@ impl<R: PointRule> Rule for R {
         let n = mean.len();
         let centre = self.centre(n);
         match self.pairs(n) {
-            Pairs::Axes { radius, bend } => {
-                along_axes(radius, bend, centre.is_some(), g, at, mean, factor, out, scratch);
+            Pairs::Axes { radius2, bend } => {
+                along_axes(radius2, bend, centre.is_some(), g, at, mean, factor, out, scratch);
             }
             Pairs::Table { count, negative } => {
                 from_table(table, count, negative, centre, g, at, mean, factor, out, scratch);
@@ -136,7 +146,7 @@ impl<R: PointRule> Rule for R {
 /// α do not cancel.
 #[inline(always)]
 fn along_axes<T: Real, G: Map>(
-    radius: f64,
+    radius2: f64,
     bend: f64,
     centred: bool,
     g: &G,
@@ -146,11 +156,11 @@ fn along_axes<T: Real, G: Map>(
     out: &mut Spread<T>,
     scratch: &mut [T],
 ) {
-    let n = mean.len();
+    let (n, radius) = (mean.len(), Real::sqrt(radius2));
     let rho = T::of(radius);
     let images = evaluate(g, at, mean, n, centred, |i, l| rho * factor[i * n + l], scratch);
     // without a centre, n/radius² = 1
-    let shift = if centred { n as f64 / (radius * radius) } else { 1.0 };
+    let shift = if centred { n as f64 / radius2 } else { 1.0 };
     let (share, shift) = (T::of(1.0 / n as f64), T::of(shift));
     let (odd, even, half) = (T::of(0.5 / radius), T::of(1.0 / radius), T::of(0.5));
     let curvature = T::of(Real::sqrt(Real::abs(bend)));

@@ -1,7 +1,6 @@
 //! The unscented transform, plain and scaled.
 
-use super::{Pairs, PointRule, RuleError};
-use crate::scalar::Real;
+use super::{Pairs, PointRule, RuleError, Shape};
 
 /// 2n + 1 points: the mean, and ±√(n + λ) e_i with λ = α² (n + κ) − n (Julier & Uhlmann 1997; Wan & van der Merwe 2000).
 ///
@@ -23,10 +22,28 @@ impl Default for Unscented {
 }
 
 impl Unscented {
+    /// The sizes for a state of length `n`, as a constant.
+    #[must_use]
+    pub const fn shape_for(self, n: usize) -> Shape {
+        self.axes(n).shape(n, Some(1.0))
+    }
+
+    const fn kappa(self, n: usize) -> f64 {
+        match self.kappa {
+            Some(kappa) => kappa,
+            None => 3.0 - n as f64,
+        }
+    }
+
     /// n + λ, the square of the points' distance from the mean.
-    fn radius2(&self, n: usize) -> f64 {
-        let n = n as f64;
-        self.alpha * self.alpha * (n + self.kappa.unwrap_or(3.0 - n))
+    const fn radius2(self, n: usize) -> f64 {
+        self.alpha * self.alpha * (n as f64 + self.kappa(n))
+    }
+
+    const fn axes(self, n: usize) -> Pairs {
+        // w^c₀ − w₀ = 1 − α² + β, and radius² = α² (n + κ)
+        let bend = self.beta + self.alpha * self.alpha * self.kappa(n) / n as f64;
+        Pairs::Axes { radius2: self.radius2(n), bend }
     }
 }
 
@@ -64,9 +81,6 @@ impl PointRule for Unscented {
         Some((radius2 - n as f64) / radius2)
     }
     fn pairs(&self, n: usize) -> Pairs {
-        // w^c₀ − w₀ = 1 − α² + β, and radius² = α² (n + κ)
-        let kappa = self.kappa.unwrap_or(3.0 - n as f64);
-        let bend = self.beta + self.alpha * self.alpha * kappa / n as f64;
-        Pairs::Axes { radius: Real::sqrt(self.radius2(n)), bend }
+        self.axes(n)
     }
 }

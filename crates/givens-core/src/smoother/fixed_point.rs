@@ -17,6 +17,7 @@ use core::marker::PhantomData;
 #[derive(Clone, Debug)]
 pub struct FixedPoint<T, B> {
     states: usize,
+    square_root: bool,
     memory: B,
     scalar: PhantomData<T>,
 }
@@ -77,18 +78,36 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> FixedPoint<T, B> {
         for (i, b) in parts.chain.iter_mut().enumerate() {
             *b = if i % (n + 1) == 0 { T::one() } else { T::zero() };
         }
-        Ok(Self { states: n, memory, scalar: PhantomData })
+        Ok(Self { states: n, square_root: X::Form::SQUARE_ROOT, memory, scalar: PhantomData })
+    }
+
+    /// Whether the filter goes with the one that this was begun with.
+    fn fits<X: Method, M: Transition, C: Grow<T>>(
+        &self,
+        filter: &Filter<'_, X, M, T, C>,
+    ) -> Result<(), StepError> {
+        let (n, found) = (self.states, filter.mean().len());
+        if n != found {
+            return Err(filter.fail(Fault::Length { of: "the filter's state", expected: n, found }));
+        }
+        if self.square_root != X::Form::SQUARE_ROOT {
+            let cov = |square_root: bool| if square_root { 0 } else { n * n };
+            let (expected, found) = (cov(self.square_root), cov(X::Form::SQUARE_ROOT));
+            return Err(filter.fail(Fault::Length { of: "the filter's own covariance", expected, found }));
+        }
+        for_smoothing(filter).map_err(|fault| filter.fail(fault))
     }
 
     /// Predicts with a filter that was started for smoothing, and notes what the prediction forgets.
     ///
     /// # Errors
-    /// Those of [`Filter::predict`].
+    /// Those of [`Filter::predict`], or a filter that was not started for smoothing or is of another length or form.
     pub fn predict<X: Method, M: Transition, C: Grow<T>>(
         &mut self,
         filter: &mut Filter<'_, X, M, T, C>,
         t: f64,
     ) -> Result<(), StepError> {
+        self.fits(filter)?;
         filter.predict(t)?;
         let n = self.states;
         let parts = parts(n, self.memory.as_mut());
@@ -109,7 +128,14 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> FixedPoint<T, B> {
     }
 
     /// Takes in what the filter has learnt since the last prediction; call it after the updates of one time.
-    pub fn update<X: Method, M: Transition, C: Grow<T>>(&mut self, filter: &Filter<'_, X, M, T, C>) {
+    ///
+    /// # Errors
+    /// A filter of another length or form than the one that this was begun with.
+    pub fn update<X: Method, M: Transition, C: Grow<T>>(
+        &mut self,
+        filter: &Filter<'_, X, M, T, C>,
+    ) -> Result<(), StepError> {
+        self.fits(filter)?;
         let n = self.states;
         let parts = parts(n, self.memory.as_mut());
         for (i, m) in parts.mean.iter_mut().enumerate() {
@@ -136,6 +162,7 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> FixedPoint<T, B> {
         if !X::Form::SQUARE_ROOT {
             filter.write_cov(parts.predicted_cov);
         }
+        Ok(())
     }
 
     /// The estimate of the state at the time of [`begin`](Self::begin).

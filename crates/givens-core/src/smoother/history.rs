@@ -2,7 +2,7 @@
 
 use super::back::{Passage, back_scratch, mean_back, step_back};
 use crate::filter::memory::take;
-use crate::filter::{Belief, Fault, Filter, Form, Grow, Method, Prior, StepError};
+use crate::filter::{Belief, Covariance, Fault, Filter, Form, Grow, Method, Prior, SquareRoot, StepError};
 use crate::model::Transition;
 use crate::scalar::Real;
 use core::marker::PhantomData;
@@ -170,17 +170,32 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
 
     /// The means alone, by the gains alone (2011 §7, remark ii): `mean`, of length n, is that of the latest record's end,
     /// and becomes the smoothed one at each earlier time in turn.
-    pub fn smooth_means(&mut self, mean: &mut [T], steps: usize, mut visit: impl FnMut(usize, &[T])) {
+    ///
+    /// # Errors
+    /// A mean of another length, or too little memory.
+    pub fn smooth_means(
+        &mut self,
+        mean: &mut [T],
+        steps: usize,
+        mut visit: impl FnMut(usize, &[T]),
+    ) -> Result<(), Fault> {
+        let room = if self.square_root {
+            self.room::<SquareRoot>(mean.len())
+        } else {
+            self.room::<Covariance>(mean.len())
+        };
+        room?;
         let (newest, capacity, count) = (self.oldest + self.count, self.capacity, self.count);
         let (square_root, len) = (self.square_root, Self::record_len(self.states, self.square_root));
         let (_, records, scratch) = self.carve(0);
         visit(0, mean);
         for age in 1..=steps.min(count) {
             let slot = (newest - age) % capacity;
-            let passage = passage(&records[slot * len..(slot + 1) * len], mean.len(), square_root);
+            let passage = passage(&records[slot * len..(slot + 1) * len], &[], mean.len(), square_root);
             mean_back(&passage, mean, scratch);
             visit(age, mean);
         }
+        Ok(())
     }
 
     /// The belief on its way back, the records, and scratch.
@@ -213,7 +228,7 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
         };
         for age in 1..=steps.min(held) {
             let before = if age < held { &record(age + 1)[2 * n + square..][..square] } else { &[] };
-            let passage = Passage { before, ..passage(record(age), n, F::SQUARE_ROOT) };
+            let passage = passage(record(age), before, n, F::SQUARE_ROOT);
             step_back::<T, F>(&passage, &mut belief, rest).map_err(|fault| StepError {
                 fault,
                 time,
@@ -236,8 +251,8 @@ pub(super) fn for_smoothing<X: Method, M: Transition, T: Real, C: Grow<T>>(
     Err(Fault::Length { of: "the gain of a filter that was not started for smoothing", expected, found })
 }
 
-/// The arrays of one record.
-fn passage<T>(mut record: &[T], n: usize, square_root: bool) -> Passage<'_, T> {
+/// The arrays of one record; `before` is the predicted covariance of the one before it.
+fn passage<'a, T>(mut record: &'a [T], before: &'a [T], n: usize, square_root: bool) -> Passage<'a, T> {
     let square = if square_root { 0 } else { n * n };
     let mut next = |len: usize| {
         let (head, tail) = record.split_at(len);
@@ -247,7 +262,7 @@ fn passage<T>(mut record: &[T], n: usize, square_root: bool) -> Passage<'_, T> {
     Passage {
         mean: next(n),
         cov: next(square),
-        before: &[],
+        before,
         predicted_mean: next(n),
         predicted_cov: next(square),
         gain: next(n * n),

@@ -1,5 +1,6 @@
 //! Values and Jacobian of several expressions in one program.
 
+use givens_core::model::Linear;
 use givens_core::scalar::Real;
 
 use crate::graph::{Graph, GraphError, Input, Node};
@@ -51,24 +52,23 @@ impl Jacobian {
         }
     }
 
-    /// g to `value`, and (∂g/∂x) S to the first n columns of `out`, which has rows of length `stride`; S is n × n.
+    /// g and (∂g/∂x) S; S is n × n.
     pub fn times<T: Real>(
         &self,
         inputs: &Inputs<'_, T>,
         n: usize,
         s: &[T],
-        value: &mut [T],
-        out: &mut [T],
-        stride: usize,
+        out: Linear<T>,
         scratch: &mut [T],
     ) {
-        for row in out.chunks_mut(stride.max(1)).take(self.rows) {
+        let Linear { value, image, stride } = out;
+        for row in image.chunks_mut(stride.max(1)).take(self.rows) {
             row[..n].fill(T::zero());
         }
         self.entries(inputs, value, scratch, |row, column, slope| {
-            let image = &mut out[row * stride..row * stride + n];
-            for (image, &deviation) in image.iter_mut().zip(&s[column * n..column * n + n]) {
-                *image = slope.mul_add(deviation, *image);
+            let row = &mut image[row * stride..row * stride + n];
+            for (x, &deviation) in row.iter_mut().zip(&s[column * n..column * n + n]) {
+                *x = slope.mul_add(deviation, *x);
             }
         });
     }

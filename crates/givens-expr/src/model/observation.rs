@@ -1,7 +1,7 @@
 //! Sensors made of expressions.
 
 use givens_core::kernels::{Health, cholesky};
-use givens_core::model::{At, Noise, Observation};
+use givens_core::model::{At, Linear, Noise, Observation};
 use givens_core::scalar::Real;
 
 use super::error::{ModelError, Nameable, length, period};
@@ -181,18 +181,9 @@ impl Observation for ModelObservation {
         self.measures.eval(&Inputs { at: *at, x, z: &[] }, points, out, scratch);
     }
 
-    fn observe_linear<T: Real>(
-        &self,
-        at: &At<T>,
-        x: &[T],
-        s: &[T],
-        value: &mut [T],
-        out: &mut [T],
-        stride: usize,
-        scratch: &mut [T],
-    ) {
+    fn observe_linear<T: Real>(&self, at: &At<T>, x: &[T], s: &[T], out: Linear<T>, scratch: &mut [T]) {
         let inputs = Inputs { at: *at, x, z: &[] };
-        self.jacobian.times(&inputs, self.states, s, value, out, stride, scratch);
+        self.jacobian.times(&inputs, self.states, s, out, scratch);
     }
 }
 

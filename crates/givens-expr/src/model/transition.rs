@@ -1,6 +1,6 @@
 //! Discrete-time dynamics made of expressions.
 
-use givens_core::model::{At, Noise, Transition};
+use givens_core::model::{At, Linear, Noise, Transition};
 use givens_core::scalar::Real;
 
 use super::error::{ModelError, Nameable, finite, length, period};
@@ -154,17 +154,8 @@ impl Transition for ModelTransition {
         self.next.eval(&Inputs { at: *at, x, z: &[] }, points, out, scratch);
     }
 
-    fn transition_linear<T: Real>(
-        &self,
-        at: &At<T>,
-        x: &[T],
-        s: &[T],
-        value: &mut [T],
-        out: &mut [T],
-        stride: usize,
-        scratch: &mut [T],
-    ) {
+    fn transition_linear<T: Real>(&self, at: &At<T>, x: &[T], s: &[T], out: Linear<T>, scratch: &mut [T]) {
         let inputs = Inputs { at: *at, x, z: &[] };
-        self.jacobian.times(&inputs, self.states, s, value, out, stride, scratch);
+        self.jacobian.times(&inputs, self.states, s, out, scratch);
     }
 }

@@ -91,7 +91,7 @@ impl<'m, X: Method, M: Transition, H: Observation> Recorder<'m, X, M, H> {
         self.filter.update_present(self.sensors, row.z, &self.present)?;
         let waiting = matches!(self.goal, Goal::Point(_)) && self.point.is_none();
         match &mut self.point {
-            Some(point) => point.update(&self.filter),
+            Some(point) => point.update(&self.filter)?,
             None => self.begin_point(row.time)?,
         }
         if waiting && self.point.is_none() {

@@ -1,0 +1,87 @@
+//! Tria(A) is the lower-triangular root of A Aᵀ, in echelon form.
+
+use super::matrix::{Matrix, any_matrix, apart, deficient, is_factor, turned};
+use givens_core::kernels::tria;
+use givens_core::scalar::Real;
+use proptest::prelude::*;
+
+/// Tria(A) and its error in units of ε ‖row i‖ ‖row j‖; what stands behind A must not matter.
+fn triangular<T: Real>(a: &Matrix) -> (Matrix, f64) {
+    let (n, k) = (a.rows, a.columns);
+    let stride = n.max(k) + 1;
+    let mut memory = a.memory::<T>(stride, f64::NAN);
+    let stated = Matrix::of(n, k, &memory, stride);
+    let health = tria(&mut memory, n, k, stride);
+    assert!(health.failed().is_none());
+    let s = Matrix::of(n, n, &memory, stride);
+    let error = apart(&s.outer(), &stated.outer(), |i| stated.norm(i)) / T::EPSILON;
+    (s, error)
+}
+
+fn is_root(a: &Matrix) -> Result<(), TestCaseError> {
+    // every row has been through as many reflections as there are rows above it, each of them k products long
+    let allowed = 8.0 * (a.rows * a.columns.max(1)) as f64;
+    for (s, error) in [triangular::<f64>(a), triangular::<f32>(a)] {
+        prop_assert!(is_factor(&s), "{s:?}");
+        prop_assert!(error <= allowed, "{error}");
+    }
+    Ok(())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn it_is_a_root_of_the_outer_product_row_by_row(a in any_matrix(1usize..=9, 0usize..=20)) {
+        is_root(&a)?;
+    }
+
+    #[test]
+    fn it_is_in_echelon_form_whatever_the_axes((a, dependent) in (1usize..=5).prop_flat_map(turned)) {
+        is_root(&a)?;
+        let (s, _) = triangular::<f64>(&a);
+        let found: Vec<bool> = (0..a.rows).map(|j| s.at(j, j) == 0.0).collect();
+        prop_assert_eq!(found, dependent, "{:?}", s);
+    }
+
+    #[test]
+    fn it_is_in_echelon_form_of_few_columns((a, dependent) in (1usize..=8).prop_flat_map(deficient)) {
+        let rank = dependent.iter().filter(|&&dependent| !dependent).count();
+        let a = Matrix::new(a.rows, rank, |i, j| a.at(i, j));
+        is_root(&a)?;
+        let (s, _) = triangular::<f64>(&a);
+        let found: Vec<bool> = (0..a.rows).map(|j| s.at(j, j) == 0.0).collect();
+        prop_assert_eq!(found, dependent, "{:?}", s);
+    }
+
+    #[test]
+    fn it_is_in_echelon_form((a, dependent) in (1usize..=8).prop_flat_map(deficient)) {
+        is_root(&a)?;
+        let (s, _) = triangular::<f64>(&a);
+        for (j, &dependent) in dependent.iter().enumerate() {
+            prop_assert_eq!(s.at(j, j) == 0.0, dependent, "pivot {} of {:?}", j, s);
+            if dependent {
+                prop_assert!((j..s.rows).all(|i| s.at(i, j) == 0.0), "column {} of {:?}", j, s);
+            }
+        }
+    }
+}
+
+#[test]
+fn no_columns_leave_nothing() {
+    let (s, _) = triangular::<f64>(&Matrix::new(3, 0, |_, _| 0.0));
+    assert!(s.data.iter().all(|&x| x == 0.0));
+}
+
+#[test]
+fn fewer_columns_than_rows_leave_pivots_of_zero() {
+    let (s, error) = triangular::<f64>(&Matrix::new(3, 1, |i, _| [3.0, -6.0, 1.0][i]));
+    assert_eq!(s.data, [3.0, 0.0, 0.0, -6.0, 0.0, 0.0, 1.0, 0.0, 0.0]);
+    assert_eq!(error, 0.0);
+}
+
+#[test]
+fn what_is_not_a_number_stays_none() {
+    let (s, _) = triangular::<f64>(&Matrix::new(2, 2, |i, j| if (i, j) == (0, 1) { f64::NAN } else { 1.0 }));
+    assert!(s.data.iter().any(|x| x.is_nan()));
+}

@@ -1,7 +1,9 @@
 //! What a failing step says, and that it says it at all.
 #![allow(clippy::unwrap_used)]
 
-use givens_core::filter::{Ekf, Fault, Filter, Gaussian, Method, Quantity, SrCkf, SrEkf, StepError, Ukf};
+use givens_core::filter::{
+    Ekf, Fault, Filter, Gaussian, Method, Over, Quantity, SrCkf, SrEkf, StepError, Ukf,
+};
 use givens_core::model::{At, Noise, Observation, Transition};
 use givens_core::scalar::Real;
 
@@ -44,7 +46,7 @@ impl Observation for Pushed {
     }
 }
 
-fn start<X: Method>(method: X) -> Filter<'static, X, Pushed, f64, Vec<f64>> {
+fn start<X: Over<Pushed>>(method: X) -> Filter<'static, X, Pushed, f64, Vec<f64>> {
     method.start(&Pushed, 0.0, Gaussian::from_std(&[0.0, 0.0], &[1.0, 1.0]).unwrap()).unwrap()
 }
 
@@ -62,7 +64,7 @@ fn controls_that_were_never_set_are_an_error_and_not_zero() {
     assert_eq!(f.mean(), [3.0, 0.0]);
 }
 
-fn derivative<X: Method>(method: X) {
+fn derivative<X: Over<Pushed>>(method: X) {
     let error = start(method).update(&Pushed, &[1.0, 1.0]).unwrap_err();
     let fault = Fault::NotFinite { quantity: Quantity::ObservationDerivative, component: 0 };
     assert_eq!(error.fault, fault);

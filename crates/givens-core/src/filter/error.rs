@@ -53,6 +53,12 @@ pub enum Quantity {
     TransitionDerivative,
     /// The derivative of a measure with respect to the state, at the mean.
     ObservationDerivative,
+    /// The drift of a state.
+    Drift,
+    /// The derivative of the drift with respect to the state, at the mean.
+    DriftDerivative,
+    /// The diffusion of a state.
+    Diffusion,
     /// The process noise.
     ProcessNoise,
     /// The measurement noise.
@@ -78,6 +84,9 @@ impl Quantity {
             Quantity::Observation => "predicted measure",
             Quantity::TransitionDerivative => "derivative of the transition",
             Quantity::ObservationDerivative => "derivative of the predicted measure",
+            Quantity::Drift => "drift",
+            Quantity::DriftDerivative => "derivative of the drift",
+            Quantity::Diffusion => "diffusion",
             Quantity::ProcessNoise => "process noise",
             Quantity::MeasurementNoise => "measurement noise",
             Quantity::Measurement => "measurement",
@@ -87,6 +96,18 @@ impl Quantity {
             Quantity::Parameter => "parameter",
         }
     }
+}
+
+/// Why a solver went no further.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Halt {
+    /// It took as many steps as a gap may have.
+    StepLimit {
+        /// How many.
+        limit: usize,
+    },
+    /// No step that the rounding of time leaves meets the tolerance.
+    StepTooSmall,
 }
 
 /// The kind of a failure, with the place inside the step.
@@ -137,6 +158,20 @@ pub enum Fault {
         /// How many it has.
         controls: usize,
     },
+    /// A diffusion that depends on the state, for a time update that cannot serve it.
+    StateDependentDiffusion,
+    /// A covariance whose factor a time update divides by, and that has no inverse: a state is known exactly.
+    SingularFactor {
+        /// The pivot, from zero.
+        pivot: usize,
+    },
+    /// The solver of a time update went no further.
+    Solver {
+        /// Why.
+        why: Halt,
+        /// The smallest step it tried.
+        smallest: f64,
+    },
     /// An option out of its range.
     Option(RuleError),
 }
@@ -176,6 +211,23 @@ impl fmt::Display for Fault {
                     f,
                     "the model has {controls} controls that were never set; give them to `set_controls` first"
                 )
+            }
+            Fault::StateDependentDiffusion => f.write_str(
+                "the diffusion depends on the state; time updates for such a model: moment-ode, euler-maruyama",
+            ),
+            Fault::SingularFactor { pivot } => write!(
+                f,
+                "the factor of the covariance is singular (pivot {}): a state is known exactly, and this time update \
+                 divides by the factor; time_update = ito-taylor does not",
+                pivot + 1
+            ),
+            Fault::Solver { why: Halt::StepLimit { limit }, smallest } => write!(
+                f,
+                "the solver has used its {limit} steps, the smallest of {smallest:e}; the drift is likely stiff: solver = \
+                 rodas4 is for that; or loosen rtol"
+            ),
+            Fault::Solver { why: Halt::StepTooSmall, smallest } => {
+                write!(f, "no step of at least {smallest:e} meets the tolerance; loosen rtol, or set atol")
             }
             Fault::Option(error) => error.fmt(f),
         }

@@ -16,7 +16,7 @@ pub const fn lu_order(n: usize) -> usize {
 ///
 /// The pivot is the largest left of its column, against the length of its row, so that a change of the units of the
 /// rows changes nothing; with several lanes it is chosen by the first. Health names a pivot that is zero within the
-/// rounding of the numbers whose difference it is; those lanes end in NaN.
+/// rounding of the numbers whose difference it is (docs/algorithms.md K6); those lanes end in NaN.
 ///
 /// ```
 /// use givens_core::kernels::{lu, lu_solve};

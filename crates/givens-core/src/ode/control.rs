@@ -2,7 +2,7 @@
 
 use crate::scalar::Real;
 
-/// Proportional-integral control of the step (Hairer, Nørsett & Wanner 1993 §II.4; Gustafsson 1991).
+/// Proportional-integral control of the step (Hairer, Nørsett & Wanner 1993, §II.4; Gustafsson 1991).
 pub(super) struct Control {
     /// The power at which the error falls with the step.
     order: f64,

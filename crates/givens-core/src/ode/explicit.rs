@@ -3,7 +3,7 @@
 use super::System;
 use super::field::{Failed, Field, Method};
 use super::segment::hermite;
-use super::tableau::Tableau;
+use super::tableau::{Tableau, combine};
 use crate::scalar::Real;
 
 /// Scalars of memory of the slopes.
@@ -20,24 +20,38 @@ pub(super) struct Explicit<'a, T> {
 }
 
 impl<T: Real> Explicit<'_, T> {
-    /// Component `r` of Σ `weights`_i k_i, in the order of the stages.
+    /// y + h Σ weights_i k_i.
     #[inline(always)]
-    fn sum(&self, weights: &[f64], r: usize) -> T {
-        let slopes = self.k[r..].iter().step_by(self.len);
-        let terms = weights.iter().zip(slopes).filter(|(weight, _)| **weight != 0.0);
-        terms.fold(T::zero(), |sum, (&weight, &k)| k.mul_add(T::of(weight), sum))
+    fn reach(&self, weights: &[f64], h: T, y: &[T], out: &mut [T]) {
+        combine(weights, self.k, out);
+        for (out, &y) in out.iter_mut().zip(y) {
+            *out = out.mul_add(h, y);
+        }
+    }
+
+    /// h Σ weights_i k_i.
+    #[inline(always)]
+    fn increment(&self, weights: &[f64], h: T, out: &mut [T]) {
+        combine(weights, self.k, out);
+        for out in out {
+            *out *= h;
+        }
+    }
+
+    /// The slopes at the start and at the end.
+    fn ends(&self) -> (&[T], &[T]) {
+        (&self.k[..self.len], &self.k[self.tableau.stages * self.len..])
     }
 }
 
 impl<T: Real, S: System> Method<T, S> for Explicit<'_, T> {
+    // that of the one pair among them
     const ERROR_ORDER: i32 = 5;
 
-    #[inline(always)]
-    fn start(&mut self, field: &mut Field<S, T>, t: T, y: &[T]) -> Result<(), S::Fault> {
+    fn start(&mut self, field: &mut Field<S, T>, t: T, y: &[T]) -> Result<(), Failed<S::Fault>> {
         field.slope(t, y, &mut self.k[..self.len])
     }
 
-    #[inline(always)]
     fn step(
         &mut self,
         field: &mut Field<S, T>,
@@ -50,43 +64,31 @@ impl<T: Real, S: System> Method<T, S> for Explicit<'_, T> {
         for i in 1..self.tableau.stages {
             let (row, rest) = weights.split_at(i);
             weights = rest;
-            for r in 0..self.len {
-                end[r] = self.sum(row, r).mul_add(h, y[r]);
-            }
+            self.reach(row, h, y, end);
             let time = T::of(self.tableau.c[i]).mul_add(h, t);
             field.slope(time, end, &mut self.k[i * self.len..][..self.len])?;
         }
-        for r in 0..self.len {
-            end[r] = self.sum(self.tableau.b, r).mul_add(h, y[r]);
-        }
+        self.reach(self.tableau.b, h, y, end);
         Ok(())
     }
 
-    #[inline(always)]
-    fn finish(&mut self, field: &mut Field<S, T>, t: T, end: &[T]) -> Result<(), S::Fault> {
+    fn finish(&mut self, field: &mut Field<S, T>, t: T, end: &[T]) -> Result<(), Failed<S::Fault>> {
         field.slope(t, end, &mut self.k[self.tableau.stages * self.len..][..self.len])
     }
 
     fn slopes(&self) -> (&[T], &[T]) {
-        (&self.k[..self.len], &self.k[self.tableau.stages * self.len..])
+        self.ends()
     }
 
-    #[inline(always)]
     fn error(&self, h: T, error: &mut [T]) {
-        for (r, error) in error.iter_mut().enumerate() {
-            *error = h * self.sum(self.tableau.error, r);
-        }
+        self.increment(self.tableau.error, h, error);
     }
 
     fn curve(&self, h: T, y: &[T], end: &[T], ended: bool, curve: &mut [T]) {
-        let slopes = (&self.k[..self.len], &self.k[self.tableau.stages * self.len..]);
-        hermite(h, y, end, slopes, ended, curve);
-        for (r, quartic) in curve[2 * self.len..].iter_mut().enumerate() {
-            *quartic = h * self.sum(self.tableau.dense, r);
-        }
+        hermite(h, y, end, self.ends(), ended, curve);
+        self.increment(self.tableau.dense, h, &mut curve[2 * self.len..]);
     }
 
-    #[inline(always)]
     fn accept(&mut self) {
         let last = self.tableau.stages * self.len;
         self.k.copy_within(last..last + self.len, 0);

@@ -1,8 +1,8 @@
 //! A system with everything it is evaluated with.
 
-use super::System;
+use super::{System, Why};
 use crate::model::At;
-use crate::scalar::Real;
+use crate::scalar::{Mask, Real};
 
 /// f as a function of t and y alone.
 pub(super) struct Field<'a, S, T> {
@@ -17,12 +17,12 @@ pub(super) struct Field<'a, S, T> {
 }
 
 impl<S: System, T: Real> Field<'_, S, T> {
-    /// f(t, y) to `dy`.
-    #[inline(always)]
-    pub fn slope(&mut self, t: T, y: &[T], dy: &mut [T]) -> Result<(), S::Fault> {
+    /// f(t, y) to `dy`, a finite number in every component.
+    pub fn slope(&mut self, t: T, y: &[T], dy: &mut [T]) -> Result<(), Failed<S::Fault>> {
         self.calls += 1;
         let at = At { t, dt: T::zero(), u: self.u, p: self.p };
-        self.system.derivative(&at, self.table, y, dy, self.scratch)
+        self.system.derivative(&at, self.table, y, dy, self.scratch).map_err(Failed::System)?;
+        finite(dy)
     }
 }
 
@@ -33,7 +33,7 @@ pub(super) trait Method<T: Real, S: System> {
     const ERROR_ORDER: i32;
 
     /// f at the start of the first step.
-    fn start(&mut self, field: &mut Field<S, T>, t: T, y: &[T]) -> Result<(), S::Fault>;
+    fn start(&mut self, field: &mut Field<S, T>, t: T, y: &[T]) -> Result<(), Failed<S::Fault>>;
     /// The state after a step of `h` from (t, y) to `end`.
     fn step(
         &mut self,
@@ -44,7 +44,7 @@ pub(super) trait Method<T: Real, S: System> {
         end: &mut [T],
     ) -> Result<(), Failed<S::Fault>>;
     /// f at the end of a step.
-    fn finish(&mut self, field: &mut Field<S, T>, t: T, end: &[T]) -> Result<(), S::Fault>;
+    fn finish(&mut self, field: &mut Field<S, T>, t: T, end: &[T]) -> Result<(), Failed<S::Fault>>;
     /// The slopes at the start and at the end of the step.
     fn slopes(&self) -> (&[T], &[T]);
     /// The estimated error of the step; wants the slope at the end.
@@ -66,8 +66,19 @@ pub(super) enum Failed<F> {
     Singular,
 }
 
-impl<F> From<F> for Failed<F> {
-    fn from(fault: F) -> Self {
-        Self::System(fault)
+impl<F> From<Failed<F>> for Why<F> {
+    fn from(failed: Failed<F>) -> Self {
+        match failed {
+            Failed::System(fault) => Why::System(fault),
+            Failed::NotFinite(component) => Why::NotFinite { component },
+            Failed::Singular => Why::StepTooSmall,
+        }
     }
+}
+
+/// Refuses what is not finite in any lane.
+#[inline(always)]
+pub(super) fn finite<T: Real, F>(values: &[T]) -> Result<(), Failed<F>> {
+    let wrong = values.iter().position(|value| (!value.finite()).all());
+    wrong.map_or(Ok(()), |component| Err(Failed::NotFinite(component)))
 }

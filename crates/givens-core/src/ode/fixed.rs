@@ -1,8 +1,8 @@
 //! Steps of equal length.
 
-use super::field::{Failed, Field, Method};
+use super::field::{Field, Method, finite};
 use super::segment::{Segment, Visit};
-use super::{Steps, Stop, System, Why, Work, not_finite};
+use super::{Steps, Stop, System, Why, Work};
 use crate::model::At;
 use crate::scalar::Real;
 
@@ -21,7 +21,6 @@ fn count<T: Real>(steps: Steps, gap: f64, limit: usize) -> Option<usize> {
 }
 
 /// Integrates over the gap; `end` has the length of the state, `curve` three times that.
-#[inline(always)]
 pub(super) fn fixed<T: Real, S: System, M: Method<T, S>>(
     method: &mut M,
     field: &mut Field<S, T>,
@@ -39,21 +38,10 @@ pub(super) fn fixed<T: Real, S: System, M: Method<T, S>>(
     let h = at.dt / T::of(count as f64);
     let time = |k: usize| T::of(k as f64).mul_add(h, at.t);
     let stop = |k: usize, why| Stop { time: time(k).first(), smallest: h.first().abs(), why };
-    method.start(field, at.t, y).map_err(|fault| stop(0, Why::System(fault)))?;
+    method.start(field, at.t, y).map_err(|failed| stop(0, failed.into()))?;
     for k in 0..count {
-        method.step(field, time(k), h, y, end).map_err(|failed| {
-            stop(
-                k,
-                match failed {
-                    Failed::System(fault) => Why::System(fault),
-                    Failed::NotFinite(component) => Why::NotFinite { component },
-                    Failed::Singular => Why::StepTooSmall,
-                },
-            )
-        })?;
-        if let Some(component) = not_finite(end) {
-            return Err(stop(k, Why::NotFinite { component }));
-        }
+        let step = method.step(field, time(k), h, y, end).and_then(|()| finite(end));
+        step.map_err(|failed| stop(k, failed.into()))?;
         let last = k + 1 == count;
         // the slope at the end of the gap serves dense output alone
         let slope = (!last || visit.is_some()).then(|| method.finish(field, time(k + 1), end));
@@ -63,8 +51,8 @@ pub(super) fn fixed<T: Real, S: System, M: Method<T, S>>(
         }
         y.copy_from_slice(end);
         work.accepted += 1;
-        if let (Some(Err(fault)), false) = (slope, last) {
-            return Err(stop(k + 1, Why::System(fault)));
+        if let (Some(Err(failed)), false) = (slope, last) {
+            return Err(stop(k + 1, failed.into()));
         }
         method.accept();
     }

@@ -110,10 +110,3 @@ impl Default for Tolerance {
         Self { rtol: 1e-6, atol: 0.0 }
     }
 }
-
-/// The first component that is not finite in any lane.
-#[inline(always)]
-fn not_finite<T: Real>(y: &[T]) -> Option<usize> {
-    use crate::scalar::Mask;
-    y.iter().position(|y| (!y.finite()).all())
-}

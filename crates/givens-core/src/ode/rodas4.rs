@@ -1,4 +1,4 @@
-//! The coefficients of RODAS (Hairer & Wanner 1996 §VI.4): order 4 with an embedded 3, L-stable, stiffly accurate.
+//! The coefficients of RODAS (Hairer & Wanner 1996, §VI.4): order 4 with an embedded 3, L-stable, stiffly accurate.
 
 /// Stages.
 pub(super) const STAGES: usize = 6;

@@ -1,15 +1,16 @@
 //! A step of a Rosenbrock method: a linear system per stage, no iteration (docs/algorithms.md O5).
 
-use super::field::{Failed, Field, Method};
+use super::System;
+use super::field::{Failed, Field, Method, finite};
 use super::rodas4::{A, ALPHA, C, DENSE, GAMMA, STAGES, TIME};
-use super::{System, not_finite};
+use super::tableau::combine;
 use crate::kernels::{lu, lu_order, lu_solve};
 use crate::model::At;
 use crate::scalar::{Dual2, Mask, Real, as_duals};
 
 /// Scalars of memory: N = `len`, `system` of the system's scratch, `beside` controls and parameters, its `table`.
 pub(super) const fn rosenbrock_scratch(len: usize, system: usize, beside: usize, table: usize) -> usize {
-    (STAGES + 3) * len + 2 * len * len + lu_order(len) + 3 * (2 * len + system + beside + table)
+    (STAGES + 4) * len + 2 * len * len + lu_order(len) + 3 * (2 * len + system + beside + table)
 }
 
 /// The method, with the exact Jacobian.
@@ -20,6 +21,8 @@ pub(super) struct Rosenbrock<'a, S, T> {
     slopes: &'a mut [T],
     /// ∂f/∂t at the start.
     f_t: &'a mut [T],
+    /// What a stage draws from those before it.
+    drawn: &'a mut [T],
     /// ∂f/∂y at the start, N × N.
     jacobian: &'a mut [T],
     /// Both belong to the present start.
@@ -42,6 +45,7 @@ impl<'a, S: System, T: Real> Rosenbrock<'a, S, T> {
         let (stages, rest) = memory.split_at_mut(STAGES * len);
         let (slopes, rest) = rest.split_at_mut(2 * len);
         let (f_t, rest) = rest.split_at_mut(len);
+        let (drawn, rest) = rest.split_at_mut(len);
         let (jacobian, rest) = rest.split_at_mut(len * len);
         let (matrix, rest) = rest.split_at_mut(len * len);
         let (order, rest) = rest.split_at_mut(lu_order(len));
@@ -51,7 +55,7 @@ impl<'a, S: System, T: Real> Rosenbrock<'a, S, T> {
         let (p, rest) = lift(at.p, rest);
         let (table, scratch) = lift(table, rest);
         let dual = Field { system, u, p, table, scratch, calls: 0 };
-        Self { stages, slopes, f_t, jacobian, fresh: false, matrix, order, dual, y, dy, jacobians: 0 }
+        Self { stages, slopes, f_t, drawn, jacobian, fresh: false, matrix, order, dual, y, dy, jacobians: 0 }
     }
 
     /// ∂f/∂y and ∂f/∂t at (t, y), a direction at a time.
@@ -73,8 +77,9 @@ impl<'a, S: System, T: Real> Rosenbrock<'a, S, T> {
         for (f_t, dy) in self.f_t.iter_mut().zip(&*self.dy) {
             *f_t = dy.d;
         }
-        if let Some(component) = not_finite(self.f_t).or(not_finite(self.jacobian).map(|at| at / len)) {
-            return Err(Failed::NotFinite(component));
+        finite(self.f_t)?;
+        for (component, row) in self.jacobian.chunks_exact(len).enumerate() {
+            finite(row).map_err(|_: Failed<S::Fault>| Failed::NotFinite(component))?;
         }
         self.fresh = true;
         Ok(())
@@ -98,7 +103,7 @@ const fn row(i: usize) -> usize {
 impl<S: System, T: Real> Method<T, S> for Rosenbrock<'_, S, T> {
     const ERROR_ORDER: i32 = 4;
 
-    fn start(&mut self, field: &mut Field<S, T>, t: T, y: &[T]) -> Result<(), S::Fault> {
+    fn start(&mut self, field: &mut Field<S, T>, t: T, y: &[T]) -> Result<(), Failed<S::Fault>> {
         field.slope(t, y, &mut self.slopes[..y.len()])
     }
 
@@ -127,23 +132,19 @@ impl<S: System, T: Real> Method<T, S> for Rosenbrock<'_, S, T> {
         for i in 0..STAGES {
             let (before, rest) = self.stages.split_at_mut(i * len);
             let stage = &mut rest[..len];
-            let sum = |weights: &[f64], r: usize, first: T| {
-                let terms =
-                    weights[row(i)..][..i].iter().zip(before[r.min(before.len())..].iter().step_by(len));
-                terms.fold(first, |sum, (&weight, &u)| u.mul_add(T::of(weight), sum))
-            };
             if i == 0 {
                 stage.copy_from_slice(&self.slopes[..len]);
             } else {
-                for r in 0..len {
-                    end[r] = sum(&A, r, y[r]);
+                combine(&A[row(i)..][..i], before, end);
+                for (end, &y) in end.iter_mut().zip(y) {
+                    *end += y;
                 }
                 field.slope(T::of(ALPHA[i]).mul_add(h, t), end, stage)?;
             }
+            combine(&C[row(i)..][..i], before, self.drawn);
             let time = T::of(TIME[i]) * h;
             for r in 0..len {
-                let drawn = sum(&C, r, T::zero()).mul_add(inverse, stage[r]);
-                stage[r] = time.mul_add(self.f_t[r], drawn);
+                stage[r] = time.mul_add(self.f_t[r], self.drawn[r].mul_add(inverse, stage[r]));
             }
             lu_solve(self.matrix, len, self.order, stage);
         }
@@ -153,7 +154,7 @@ impl<S: System, T: Real> Method<T, S> for Rosenbrock<'_, S, T> {
         Ok(())
     }
 
-    fn finish(&mut self, field: &mut Field<S, T>, t: T, end: &[T]) -> Result<(), S::Fault> {
+    fn finish(&mut self, field: &mut Field<S, T>, t: T, end: &[T]) -> Result<(), Failed<S::Fault>> {
         field.slope(t, end, &mut self.slopes[end.len()..])
     }
 
@@ -169,10 +170,7 @@ impl<S: System, T: Real> Method<T, S> for Rosenbrock<'_, S, T> {
         let len = y.len();
         curve.fill(T::zero());
         for (weights, curve) in DENSE.iter().zip(curve.chunks_exact_mut(len)) {
-            for (r, curve) in curve.iter_mut().enumerate() {
-                let terms = weights.iter().zip(self.stages[r..].iter().step_by(len));
-                *curve = terms.fold(T::zero(), |sum, (&weight, &u)| u.mul_add(T::of(weight), sum));
-            }
+            combine(weights, self.stages, curve);
         }
     }
 
@@ -180,5 +178,54 @@ impl<S: System, T: Real> Method<T, S> for Rosenbrock<'_, S, T> {
         let len = self.slopes.len() / 2;
         self.slopes.copy_within(len.., 0);
         self.fresh = false;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Failed, Field, Method, Rosenbrock, rosenbrock_scratch};
+    use crate::model::At;
+    use crate::ode::{System, Tolerance};
+    use crate::scalar::Real;
+
+    /// y' = 4 y: I/(γ h) is the Jacobian at h = 1.
+    struct Growth;
+
+    impl System for Growth {
+        type Fault = ();
+        fn len(&self) -> usize {
+            1
+        }
+        fn scratch(&self) -> usize {
+            0
+        }
+        fn derivative<T: Real>(
+            &self,
+            _: &At<T>,
+            _: &[T],
+            y: &[T],
+            dy: &mut [T],
+            _: &mut [T],
+        ) -> Result<(), ()> {
+            dy[0] = T::of(4.0) * y[0];
+            Ok(())
+        }
+        fn error<T: Real>(&self, _: Tolerance, _: &[T], _: &[T], error: &[T]) -> f64 {
+            error[0].first()
+        }
+    }
+
+    #[test]
+    fn a_step_without_a_solution_is_told_and_keeps_the_jacobian_for_the_next_try() {
+        let mut memory = [0.0; rosenbrock_scratch(1, 0, 0, 0)];
+        let at = At { t: 0.0, dt: 1.0, u: &[], p: &[] };
+        let mut method = Rosenbrock::new(&Growth, &at, &[], &mut memory);
+        let mut field = Field { system: &Growth, u: &[], p: &[], table: &[], scratch: &mut [], calls: 0 };
+        let (y, mut end) = ([1.0], [0.0]);
+        method.start(&mut field, 0.0, &y).unwrap();
+        assert!(matches!(method.step(&mut field, 0.0, 1.0, &y, &mut end), Err(Failed::Singular)));
+        method.step(&mut field, 0.0, 0.01, &y, &mut end).unwrap();
+        assert!((end[0] - 0.04_f64.exp()).abs() < 1e-9, "{end:?}");
+        assert_eq!(method.jacobians, 1);
     }
 }

@@ -1,5 +1,7 @@
 //! The coefficients of the explicit Runge–Kutta methods.
 
+use crate::scalar::Real;
+
 /// k_i = f(t + c_i h, y + h Σ_j<i a_ij k_j), y⁺ = y + h Σ b_i k_i (docs/algorithms.md O1). The slope at the end,
 /// f(t + h, y⁺), counts as one stage more in `error` and `dense`.
 pub(super) struct Tableau {
@@ -15,6 +17,20 @@ pub(super) struct Tableau {
     pub error: &'static [f64],
     /// Weights of what dense output has beyond the cubic; empty without.
     pub dense: &'static [f64],
+}
+
+/// Σ weights_i vectors_i to `out`, in the order of i; the vectors stand one behind the other.
+#[inline(always)]
+pub(super) fn combine<T: Real>(weights: &[f64], vectors: &[T], out: &mut [T]) {
+    out.fill(T::zero());
+    for (&weight, vector) in weights.iter().zip(vectors.chunks_exact(out.len())) {
+        if weight != 0.0 {
+            let weight = T::of(weight);
+            for (out, &x) in out.iter_mut().zip(vector) {
+                *out = x.mul_add(weight, *out);
+            }
+        }
+    }
 }
 
 /// Order 1.
@@ -34,7 +50,7 @@ pub(super) const RK4: Tableau = Tableau {
     dense: &[],
 };
 
-/// Order 5 with an embedded 4 (Dormand & Prince 1980); dense output of order 4 (Hairer, Nørsett & Wanner 1993 §II.6).
+/// Order 5 with an embedded 4 (Dormand & Prince 1980); dense output of order 4 (Hairer, Nørsett & Wanner 1993, §II.6).
 pub(super) const DP5: Tableau = Tableau {
     stages: 6,
     a: &[

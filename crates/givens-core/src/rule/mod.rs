@@ -73,6 +73,9 @@ pub trait Rule: Copy {
     /// The sizes for a state of length `n`.
     fn shape(&self, n: usize) -> Shape;
 
+    /// D is J S with J = ∂g/∂x at the mean, whatever the root.
+    const FIRST_ORDER: bool = false;
+
     /// The error of a row of [D E], in Euclidean norm, that a unit error in every value of g makes.
     fn rounding(&self, n: usize) -> f64 {
         let _ = n;

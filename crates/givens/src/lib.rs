@@ -21,7 +21,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-pub use givens_core::{filter, kernels, model, rule, scalar, smoother};
+pub use givens_core::{filter, kernels, model, ode, rule, scalar, smoother};
 
 mod data;
 mod estimates;

@@ -58,7 +58,7 @@ fn prior(model: &Model) -> Result<Gaussian, Stop> {
 fn tracks(model: &Model, args: &SimulateArgs) -> Result<Tracks, Stop> {
     let Some(path) = &args.times else { return regular(model, args) };
     let tracks = read_times(path, model)?;
-    ignored(path, &tracks.ignored, &absent(&model, &tracks));
+    ignored(path, &tracks.ignored, &absent(model, &tracks));
     if args.runs > 1 && tracks.has_track_id {
         let stop = Stop::input(format!("--runs {}: the table of --times has tracks of its own", args.runs));
         return Err(stop.help("leave --runs out, or remove its column `track_id`"));

@@ -24,23 +24,23 @@ pub fn smooth(args: &SmoothArgs) -> Result<(), Stop> {
 }
 
 fn run(args: &FilterArgs, goals: impl Fn(&Plan) -> Result<Vec<Goal>, Stop>) -> Result<(), Stop> {
-    let (output, plot) = (args.output.as_deref(), args.plot.as_deref());
+    let output = args.output.as_deref();
     let format = format(args.format, output)?;
-    plot.map_or(Ok(()), figure::check)?;
+    args.plots.iter().try_for_each(|path| figure::check(path))?;
+    let mut outputs = vec![("-o", output)];
+    outputs.extend(args.plots.iter().map(|path| ("--plot", Some(path.as_path()))));
     files::check(
         &[("MODEL", Some(&args.model.model)), ("DATA", Some(&args.data)), ("--truth", args.truth.as_deref())],
-        &[("-o", output), ("--plot", plot)],
+        &outputs,
     )?;
     let plan = Plan::new(args)?;
     let goals = goals(&plan)?;
     let sink = Sink::open(output)?;
-    let canvas = match plot {
-        Some(path) => Some((path, Sink::open(Some(path))?)),
-        None => None,
-    };
+    let canvases = args.plots.iter().map(|path| Ok((path, Sink::open(Some(path))?)));
+    let canvases = canvases.collect::<Result<Vec<_>, Stop>>()?;
     let session = Session::run(&plan, &plan.choice, &goals);
     sink.write(|out| write_answers(out, format, &plan.model, &plan.tracks, &session.answers))?;
-    if let Some((path, canvas)) = canvas {
+    for (path, canvas) in canvases {
         let picture = figure::draw(path, &plan, &session)?;
         canvas.write(|out| out.write_all(&picture))?;
     }

@@ -97,6 +97,15 @@ fn wrong_methods_and_options() {
                 "filter model.toml data.csv -o out.csv --method cdkf --set eta=0.9",
                 &["--set eta=0.9: must be"],
             ),
+        ],
+    );
+}
+
+#[test]
+fn numbers_out_of_reach() {
+    check(
+        "reach",
+        &[
             (
                 "eta_overflow",
                 NONE,

@@ -90,10 +90,28 @@ fn wrong_tables() {
                 TRUE,
                 &["truth.csv:1:1: the table has no column of a state", "`x`, `vx`, `y`, `vy`"],
             ),
+            ("nan_truth", (T, "31", "nan"), TRUE, &["truth.csv:2:3: `nan` in `x`"]),
+            ("empty_stdin", NONE, "filter model.toml - -o out.csv", &["standard input: the table is empty"]),
+            ("two_stdins", NONE, "filter - - -o out.csv", &["MODEL and DATA are both `-`", "help: "]),
+            (
+                "missing_times",
+                NONE,
+                "simulate model.toml --times no.csv --seed 1 -o out.csv",
+                &["no.csv: there is no such file"],
+            ),
+        ],
+    );
+}
+
+#[test]
+fn tables_mistaken_for_others() {
+    check(
+        "mistaken",
+        &[
             (
                 "near_truth",
-                (T, "x,y", "x1,b"),
-                TRUE,
+                ("truth.csv", "x,y", "x1,b"),
+                "filter model.toml data.csv --truth truth.csv -o out.csv",
                 &["truth.csv:1:1: the table has no column of a state", "rename `x1` to `x`"],
             ),
             (
@@ -107,15 +125,6 @@ fn wrong_tables() {
                 ("model.toml", "x + dt*vx", "x + dt*vx + u_gas"),
                 "filter model.toml data.csv -o out.csv",
                 &["the table has no column `u_gas`, a control that the model uses"],
-            ),
-            ("nan_truth", (T, "31", "nan"), TRUE, &["truth.csv:2:3: `nan` in `x`"]),
-            ("empty_stdin", NONE, "filter model.toml - -o out.csv", &["standard input: the table is empty"]),
-            ("two_stdins", NONE, "filter - - -o out.csv", &["MODEL and DATA are both `-`", "help: "]),
-            (
-                "missing_times",
-                NONE,
-                "simulate model.toml --times no.csv --seed 1 -o out.csv",
-                &["no.csv: there is no such file"],
             ),
         ],
     );

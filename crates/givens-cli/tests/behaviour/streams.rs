@@ -117,6 +117,15 @@ fn figures_are_valid_svg_and_png() {
 }
 
 #[test]
+fn several_figures_are_drawn_each_in_its_file() {
+    let folder = folder("figures");
+    folder.run("filter model.toml data.csv --plot a.svg --plot b.png").good();
+    assert!(folder.path("a.svg").is_file() && folder.path("b.png").is_file());
+    let found = folder.run("filter model.toml data.csv --plot c.svg --plot ./c.svg");
+    assert!(found.code == 2 && found.stderr.contains("this is the file of --plot too"), "{}", found.stderr);
+}
+
+#[test]
 fn figures_of_odd_runs_are_drawn_too() {
     let folder = folder("odd_figures");
     folder.write("one.csv", "time,z\n1,2\n").write("blank.csv", "time,z\n1,\n");

@@ -37,8 +37,9 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
     /// any length. At the present time nothing happens.
     ///
     /// # Errors
-    /// A time in the past, a gap that is not whole steps, controls that were never set, a model that is not finite or whose noise is no covariance,
-    /// a predicted covariance that is not positive definite. The belief is then that of the last step that succeeded.
+    /// A time in the past, a gap that is not whole steps, controls that were never set, a model that is not finite or
+    /// whose noise is no covariance, a predicted covariance that is not positive definite. The belief is then that of
+    /// the last step that succeeded.
     pub fn predict(&mut self, t: f64) -> Result<(), StepError> {
         let (from, gap) = (self.time, t - self.time);
         let refuse = |fault| Err(StepError { fault, time: from, step: self.step });
@@ -57,7 +58,7 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
             self.one_step(from + k as f64 * dt, dt, k > 0)?;
         }
         self.time = t;
-        self.step += 1;
+        self.step += usize::from(count > 0);
         Ok(())
     }
 

@@ -4,10 +4,12 @@ mod error;
 mod frame;
 mod jacobian;
 mod observation;
+mod sde;
 mod start;
 mod transition;
 
 pub use error::ModelError;
 pub use observation::{ModelObservation, NoiseBlock, ObservationParts};
+pub use sde::{ModelSde, SdeParts};
 pub use start::{ModelStart, StartParts};
 pub use transition::{ModelTransition, TransitionParts};

@@ -18,12 +18,14 @@ mod state;
 mod vocabulary;
 
 pub use beginning::{BeginError, Beginning};
+pub use dynamics::Dynamics;
 pub use filter::{FilterSettings, Setting, SettingValue};
 pub use sensor::Sensor;
 pub use start::Start;
 pub use state::Prior;
 
-use givens_expr::{ModelObservation, ModelTransition};
+use givens_core::model::Transition;
+use givens_expr::ModelObservation;
 
 use crate::error::InputErrors;
 use crate::source::Source;
@@ -70,7 +72,7 @@ pub struct Model {
     /// What finds states from the first row of a track.
     pub start: Option<Start>,
     /// How the state moves.
-    pub transition: ModelTransition,
+    pub dynamics: Dynamics,
     /// What all sensors measure, stacked in file order.
     pub observation: ModelObservation,
     /// The sensors, in file order.
@@ -119,6 +121,11 @@ impl Model {
     /// Number of measures of all sensors.
     pub fn measures(&self) -> usize {
         self.sensors.last().map_or(0, |sensor| sensor.measures.end)
+    }
+
+    /// The fixed length of a step, if the model is discrete and has one: a gap is then a whole number of them.
+    pub fn step(&self) -> Option<f64> {
+        self.dynamics.discrete().and_then(Transition::period)
     }
 
     /// Where a row's measurement lies in the plane of the figure, if `start` can tell from this row.

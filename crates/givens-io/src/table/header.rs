@@ -1,5 +1,7 @@
 //! What the columns of a table mean to a model.
 
+use std::path::Path;
+
 use givens_expr::suggest;
 
 use super::sheet::Sheet;
@@ -86,7 +88,8 @@ pub(super) fn time(sheet: &Sheet) -> Option<usize> {
 /// Whether the table begins as model files do: with the title of a section.
 fn is_model(sheet: &Sheet) -> bool {
     let first = sheet.header.first().map_or("", String::as_str);
-    first.starts_with('[') || (first.starts_with('#') && sheet.findings.source.name.ends_with(".toml"))
+    let named = Path::new(&sheet.findings.source.name).extension().is_some_and(|ending| ending == "toml");
+    first.starts_with('[') || (first.starts_with('#') && named)
 }
 
 /// A header of one column that holds other separators was not written as CSV.

@@ -101,20 +101,22 @@ pub(super) fn differ(a: &str, b: &str) -> bool {
     }
 }
 
-/// A decimal number without its rounding: its digits from the first to the last that is not zero, its sign, and
-/// the power of ten behind them.
+/// A decimal number without its rounding: its digits from the first to the last that is not zero, its sign, and the
+/// power of ten of the first.
 fn decimal(text: &str) -> (String, bool, i64) {
     let (mantissa, exponent) = text.split_once(['e', 'E']).unwrap_or((text, "0"));
-    let (whole, part) = mantissa.split_once('.').unwrap_or((mantissa, ""));
-    let digits: String = whole.chars().chain(part.chars()).filter(char::is_ascii_digit).collect();
-    let digits = digits.trim_start_matches('0');
-    let kept = digits.trim_end_matches('0');
+    let whole = mantissa.split('.').next().unwrap_or("").trim_start_matches(['+', '-', '0']);
+    let digits: String = mantissa.chars().filter(char::is_ascii_digit).collect();
+    let kept = digits.trim_matches('0');
     if kept.is_empty() {
         return (String::new(), false, 0);
     }
-    let zeros = (digits.len() - kept.len()) as i64;
-    let power = exponent.parse().unwrap_or(0_i64).saturating_add(zeros - part.len() as i64);
-    (kept.to_owned(), mantissa.starts_with('-'), power)
+    // below one, the zeros behind the point
+    let behind = mantissa.split_once('.').map_or("", |(_, part)| part);
+    let zeros = behind.len() - behind.trim_start_matches('0').len();
+    let length = |text: usize| i64::try_from(text).unwrap_or(i64::MAX);
+    let first = if whole.is_empty() { -length(zeros) } else { length(whole.len()) };
+    (kept.to_owned(), mantissa.starts_with('-'), exponent.parse().unwrap_or(0_i64).saturating_add(first))
 }
 
 /// A time as a table gives it.

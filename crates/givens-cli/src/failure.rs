@@ -1,8 +1,9 @@
 //! What failed, in the names of the model.
 
+use crate::report::digits;
 use givens::filter::{Fault, Halt, Matrix, Quantity, StepError};
-use givens::registry::FormName;
-use givens::scalar::Shown;
+use givens::ode::Solver;
+use givens::registry::{Choice, FormName, TimeName};
 use givens_io::{Dynamics, Model, Row, Track};
 
 /// Where something failed: the row of a table, and the track and the time.
@@ -11,13 +12,13 @@ pub fn place(data: &str, track: &Track, row: &Row, time: f64) -> String {
     format!("{data}:{}: {name}t = {}", row.line, track.time_text(time))
 }
 
-/// Why a step failed, by the names of the model; `what` was at work at `place`, in this form if it has one.
-pub fn told(model: &Model, place: &str, what: &str, form: Option<FormName>, error: &StepError) -> String {
-    format!("{place}, step {}: the {what} failed: {}", error.step, fault(model, form, &error.fault))
+/// Why a step failed, by the names of the model; `what` was at work at `place`, by this method if it has one.
+pub fn told(model: &Model, place: &str, what: &str, choice: Option<&Choice>, error: &StepError) -> String {
+    format!("{place}, step {}: the {what} failed: {}", error.step, fault(model, choice, &error.fault))
 }
 
 /// A fault with the model's own names.
-fn fault(model: &Model, form: Option<FormName>, fault: &Fault) -> String {
+fn fault(model: &Model, choice: Option<&Choice>, fault: &Fault) -> String {
     let state =
         |i: usize| model.states.get(i).map_or_else(|| (i + 1).to_string(), |name| format!("`{name}`"));
     let columns: Vec<&String> = model.sensors.iter().flat_map(|sensor| &sensor.columns).collect();
@@ -28,7 +29,7 @@ fn fault(model: &Model, form: Option<FormName>, fault: &Fault) -> String {
                 Matrix::Innovation | Matrix::MeasurementNoise => ("measure", measure(pivot)),
                 _ => ("state", state(pivot)),
             };
-            let remedy = remedy(model, matrix, form);
+            let remedy = remedy(model, matrix, choice.map(|choice| choice.form));
             format!(
                 "the {} is not positive definite at pivot {} ({kind} {name}); {remedy}",
                 matrix.name(),
@@ -59,6 +60,12 @@ fn fault(model: &Model, form: Option<FormName>, fault: &Fault) -> String {
                  derivatives (--method sr-cd-ckf2), or start off that point",
                 state(component)
             ),
+            Quantity::Drift if choice.is_some_and(|choice| choice.time_update == TimeName::ItoTaylor) => {
+                format!(
+                    "the drift of {}, or a derivative of it in the expansion, is not a finite number; {DOMAIN}",
+                    state(component)
+                )
+            }
             Quantity::Transition
             | Quantity::Drift
             | Quantity::Diffusion
@@ -77,10 +84,17 @@ fn fault(model: &Model, form: Option<FormName>, fault: &Fault) -> String {
             pivot + 1,
             state(pivot)
         ),
-        Fault::Solver { why: Halt::StepLimit { limit }, smallest } => format!(
-            "the solver came no further than this time in its {limit} steps, the smallest of {smallest:.2e}; the drift is \
-             likely stiff: --set solver=rodas4 is for that; or loosen rtol"
-        ),
+        Fault::Solver { why: Halt::StepLimit { limit }, smallest } => {
+            let stiff = choice.is_some_and(|choice| choice.integrator.solver == Solver::Rodas4);
+            let remedy = if stiff {
+                "loosen rtol, set atol, or give the states noise"
+            } else {
+                "the drift is likely stiff: --set solver=rodas4 is for that; or loosen rtol"
+            };
+            format!(
+                "the solver came no further than this time in its {limit} steps, the smallest of {smallest:.2e}; {remedy}"
+            )
+        }
         Fault::Solver { why: Halt::StepTooSmall, smallest } => format!(
             "the solver came no further than this time: no step of at least {smallest:.2e} meets the tolerance; loosen \
              rtol, or set atol"
@@ -94,7 +108,7 @@ pub fn set_out(model: &Model, mean: &[f64], fault: &Fault) -> String {
     if mean.is_empty() || !matches!(fault, Fault::NotFinite { .. } | Fault::Solver { .. }) {
         return String::new();
     }
-    let values = model.states.iter().zip(mean).map(|(name, x)| format!("{name} = {}", Shown(*x)));
+    let values = model.states.iter().zip(mean).map(|(name, x)| format!("{name} = {}", digits(*x)));
     format!("\n  the step set out from {}", values.collect::<Vec<_>>().join(", "))
 }
 

@@ -2,6 +2,7 @@
 
 use crate::args::MethodArgs;
 use crate::message::{Stop, say};
+use givens::filter::Fault;
 use givens::registry::{
     Choice, FormName, Kind, RuleName, Setting, SettingError, TimeName, Value, default_method, find, resolve,
 };
@@ -151,7 +152,13 @@ fn for_model(model: &Model, choice: Choice) -> Result<Choice, Stop> {
     let Dynamics::Continuous(sde) = &model.dynamics else { return Ok(choice) };
     match choice.check_continuous(sde) {
         Ok(()) => Ok(choice),
-        Err(fault) => Err(Stop::input(format!("{}: {}: {fault}", model.file, choice.name))),
+        Err(fault) => {
+            let stop = Stop::input(format!("{}: {}: {fault}", model.file, choice.name));
+            Err(match fault {
+                Fault::StateDependentDiffusion => stop.help("write --method sr-cd-ckf2, or set time_update"),
+                _ => stop,
+            })
+        }
     }
 }
 

@@ -42,7 +42,7 @@ impl Session {
                 let at = &track.rows[begin.row + row];
                 let place = failure::place(&plan.data, track, at, error.time);
                 let what = if *goal == Goal::Filter { "filter" } else { "smoother" };
-                let told = failure::told(&plan.model, &place, what, Some(choice.form), error);
+                let told = failure::told(&plan.model, &place, what, Some(choice), error);
                 let told =
                     format!("{told}{}", failure::set_out(&plan.model, &outcome.failed_at, &error.fault));
                 let finished = match outcome.estimates.len() {

@@ -38,6 +38,8 @@ pub struct Filter<'m, X, M, T, B> {
     /// Whether the controls are known: there are none, or they were set.
     pub(super) controlled: bool,
     pub(super) work: Work,
+    /// The last step was a prediction that left a root of its own for the update.
+    pub(super) moved: bool,
     pub(super) memory: B,
     scalar: PhantomData<T>,
 }
@@ -66,6 +68,7 @@ pub(super) fn parts<'a, T, F: Form>(layout: &Layout, mut memory: &'a mut [T]) ->
     let m = &mut memory;
     let square = if layout.smoothing { n * n } else { 0 };
     let root = if F::SQUARE_ROOT { square } else { 0 };
+    let moved = take(m, layout.moved_len());
     Parts {
         table: take(m, layout.shape.table),
         u: take(m, layout.sizes.controls),
@@ -74,6 +77,7 @@ pub(super) fn parts<'a, T, F: Form>(layout: &Layout, mut memory: &'a mut [T]) ->
             mean: take(m, n),
             factor: take(m, n * n),
             cov: take(m, if F::SQUARE_ROOT { 0 } else { n * n }),
+            moved,
         },
         total: Backward { gain: take(m, square), conditional: take(m, root) },
         later: Backward { gain: take(m, square), conditional: take(m, root) },
@@ -92,7 +96,8 @@ pub(super) fn layout<X: Over<M>, M>(method: &X, sizes: Sizes, smoothing: bool) -
     let shape = method.rule().shape(sizes.states);
     let predict =
         if countable(sizes, shape) { method.time_update().scratch(sizes, shape, smoothing) } else { 0 };
-    Layout::new(sizes, shape, smoothing, predict)
+    let layout = Layout::new(sizes, shape, smoothing, predict);
+    if method.time_update().moves_root() { layout.with_moved_root() } else { layout }
 }
 
 /// The initial belief of a filter, in plain slices: the mean of length n, the lower-triangular root of the covariance,
@@ -166,7 +171,19 @@ impl<'m, X: Over<M>, M, T: Real, B: AsMut<[T]>> Filter<'m, X, M, T, B> {
         }
         let (time, scalar, controlled) = (prior.time, PhantomData, sizes.controls == 0);
         let work = Work::default();
-        Ok(Self { method, model, layout, time, step: 0, present: 0, controlled, work, memory, scalar })
+        Ok(Self {
+            method,
+            model,
+            layout,
+            time,
+            step: 0,
+            present: 0,
+            controlled,
+            work,
+            moved: false,
+            memory,
+            scalar,
+        })
     }
 
     /// Scalars of memory that a filter of these sizes needs; `memory` of a method's type is the same as a constant.
@@ -224,7 +241,8 @@ fn set<T: Real>(to: &mut [T], from: &[f64], of: &'static str, quantity: Quantity
 impl<X: Method, M, T: Real, B: AsRef<[T]>> Filter<'_, X, M, T, B> {
     /// Where an array that stands `skip` scalars behind the parameters begins.
     fn array(&self, skip: usize, len: usize) -> &[T] {
-        let at = self.layout.shape.table + self.layout.sizes.controls + self.layout.sizes.parameters + skip;
+        let Layout { shape, sizes, .. } = self.layout;
+        let at = self.layout.moved_len() + shape.table + sizes.controls + sizes.parameters + skip;
         &self.memory.as_ref()[at..at + len]
     }
 

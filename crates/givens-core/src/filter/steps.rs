@@ -92,6 +92,7 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
         };
         chain.map_err(|fault| StepError { fault, time: t + dt, step })?;
         self.work = work;
+        self.moved = self.layout.moved;
         self.time = t + dt;
         Ok(())
     }
@@ -148,13 +149,16 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
             return Err(fail(Fault::ControlsNotSet { controls: self.layout.sizes.controls }));
         }
         self.make_room(sensor).map_err(fail)?;
-        let (rule, block) = (self.method.rule(), self.method.block());
+        let (rule, block, moved) = (self.method.rule(), self.method.block(), self.moved);
         let Parts {
             table, u, p, mut belief, measured, predicted, nu, factor, white, scores, scratch, ..
         } = self.parts();
         let at = At { t: T::of(time), dt: T::zero(), u, p };
         let measured = &mut measured[..d];
         measured.iter_mut().zip(z).for_each(|(to, &z)| *to = T::of(z));
+        if !moved {
+            belief.moved = &mut [];
+        }
         let measurement = Measurement { z: measured, present };
         let (nis, log_likelihood) = scores.split_at_mut(1);
         let (nis, log_likelihood) = (&mut nis[0], &mut log_likelihood[0]);
@@ -172,6 +176,7 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
         );
         let (present, _) = done.map_err(fail)?;
         self.present = present;
+        self.moved &= present == 0;
         self.step += 1;
         Ok(())
     }

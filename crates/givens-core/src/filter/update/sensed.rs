@@ -3,8 +3,9 @@
 use super::{InnovationMut, Measurement};
 use crate::filter::error::{Fault, Matrix, Quantity};
 use crate::filter::form::Belief;
-use crate::filter::memory::take;
+use crate::filter::memory::{put_columns, take};
 use crate::filter::predict::lanes;
+use crate::kernels::tria;
 use crate::model::{At, Observation, Sensed as SensedMap};
 use crate::rule::{Rule, Shape, Spread};
 use crate::scalar::{Mask, Real};
@@ -68,7 +69,9 @@ pub(super) fn sense<'a, T: Real, H: Observation, R: Rule>(
     let mean = &mut innovation.predicted[..all];
 
     let mut spread = Spread { mean: &mut *mean, dev: &mut *dev, stride, minus: &mut *minus };
-    rule.spread(table, &SensedMap(h), at, belief.mean, belief.factor, &mut spread, scratch);
+    let moved = !belief.moved.is_empty();
+    let drawn = if moved { &*belief.moved } else { &*belief.factor };
+    rule.spread(table, &SensedMap(h), at, belief.mean, drawn, &mut spread, scratch);
     let sick = lanes(h.noise_root(at, root), Matrix::MeasurementNoise)?;
 
     let mut d = 0;
@@ -101,5 +104,24 @@ pub(super) fn sense<'a, T: Real, H: Observation, R: Rule>(
         mean[d] = wrapped(mean[i]);
         d += 1;
     }
+    if moved {
+        turn(belief.moved, dev, d, stride, scratch);
+    }
     Ok((Sensed { d, dev, stride, minus, lost: shape.minus }, sick))
+}
+
+/// [M; D] Q = [S; D Q] with S lower triangular: D from the coordinates of M to those of S.
+fn turn<T: Real>(moved: &[T], dev: &mut [T], d: usize, stride: usize, scratch: &mut [T]) {
+    let n = moved.len().isqrt();
+    let size = n + d;
+    let block = &mut scratch[..size * size];
+    put_columns(block, size, 0, moved, n);
+    for (to, row) in block[n * size..].chunks_exact_mut(size).zip(dev.chunks_exact(stride)) {
+        to[..n].copy_from_slice(&row[..n]);
+    }
+    // the rows of D find no column left to be reflected in
+    let _ = tria(block, size, n, size);
+    for (row, from) in dev.chunks_exact_mut(stride).zip(block[n * size..].chunks_exact(size)) {
+        row[..n].copy_from_slice(&from[..n]);
+    }
 }

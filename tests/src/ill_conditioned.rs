@@ -2,8 +2,8 @@
 
 use crate::{golden, lower, numbers};
 use givens::filter::{
-    Block, Cdkf, Ckf, Ckf5, Ekf, Filter, Method, Prior, Qkf, Sizes, SrCdkf, SrCkf, SrCkf5, SrEkf, SrQkf,
-    SrUkf, StepError, Ukf,
+    Block, Cdkf, Ckf, Ckf5, Ekf, Filter, Over, Prior, Qkf, Sizes, SrCdkf, SrCkf, SrCkf5, SrEkf, SrQkf, SrUkf,
+    StepError, Ukf,
 };
 use givens::model::{At, Noise, Observation, Transition};
 use givens::rule::Rule;
@@ -75,7 +75,7 @@ pub fn cases(scalar: &str) -> Vec<Case> {
 ///
 /// # Errors
 /// The update's own.
-pub fn error<T: Real, X: Method>(method: X, case: &Case) -> Result<f64, StepError> {
+pub fn error<T: Real, X: Over<Still>>(method: X, case: &Case) -> Result<f64, StepError> {
     let shape = method.rule().shape(3);
     let sizes = Sizes::of_model(&Still, shape).with_sensor(&case.sensor, shape);
     let mut eye = [0.0; 9];

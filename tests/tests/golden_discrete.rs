@@ -1,7 +1,7 @@
 //! Every filter and smoother of `golden/discrete.json`, through the library.
 
 use givens::filter::{
-    Block, Cdkf, Ckf, Ckf5, Ekf, Gaussian, Method, Qkf, SrCdkf, SrCkf, SrCkf5, SrEkf, SrQkf, SrUkf, Ukf,
+    Block, Cdkf, Ckf, Ckf5, Ekf, Gaussian, Over, Qkf, SrCdkf, SrCkf, SrCkf5, SrEkf, SrQkf, SrUkf, Ukf,
 };
 use givens::model::zoo::{CoordinatedTurn, RangeBearing};
 use givens::model::{At, Noise, Observation, Transition};
@@ -66,7 +66,7 @@ struct Scenario<M, H> {
 }
 
 impl<M: Transition, H: Observation> Scenario<M, H> {
-    fn run<X: Method>(&self, method: X, goal: Goal) -> Estimates {
+    fn run<X: Over<M>>(&self, method: X, goal: Goal) -> Estimates {
         let mut data = Data::new(2);
         data.push(0.0, &[f64::NAN; 2]).unwrap();
         for (k, z) in numbers(&self.golden["z"]).chunks_exact(2).enumerate() {
@@ -98,7 +98,7 @@ impl<M: Transition, H: Observation> Scenario<M, H> {
         }
     }
 
-    fn check<X: Method>(&self, name: &str, method: X) {
+    fn check<X: Over<M>>(&self, name: &str, method: X) {
         let golden = &self.golden["filters"][name];
         let what = |part: &str| format!("{name} ({}) {part}", std::any::type_name::<X>());
         let est = self.run(method, Goal::Interval);

@@ -1,7 +1,7 @@
 //! A step of a filter or a smoother allocates nothing.
 
 use givens::filter::{
-    Cdkf, Ckf, Ckf5, Ekf, Filter, Form, Gaussian, Method, Prior, Qkf, Sizes, SrCdkf, SrCkf, SrCkf5, SrEkf,
+    Cdkf, Ckf, Ckf5, Ekf, Filter, Form, Gaussian, Over, Prior, Qkf, Sizes, SrCdkf, SrCkf, SrCkf5, SrEkf,
     SrQkf, SrUkf, Ukf,
 };
 use givens::model::zoo::{CoordinatedTurn, RangeBearing};
@@ -35,7 +35,7 @@ unsafe impl GlobalAlloc for Counting {
 static COUNTING: Counting = Counting;
 
 /// Allocations of twenty steps, after one that may make room for the sensor.
-fn allocations<X: Method>(method: X) -> usize {
+fn allocations<X: Over<CoordinatedTurn>>(method: X) -> usize {
     let (turn, radar) = (CoordinatedTurn::default(), RangeBearing::published());
     let prior =
         Gaussian::from_std(&[1000.0, 300.0, 1000.0, 0.0, -0.05], &[10.0, 3.2, 10.0, 3.2, 0.01]).unwrap();
@@ -70,7 +70,7 @@ fn no_method_allocates_in_a_step() {
 }
 
 /// Allocations of a fixed-lag smoother over more rows than its ring holds, and of a fixed-point smoother beside it.
-fn smoothing_allocations<X: Method>(method: X) -> usize {
+fn smoothing_allocations<X: Over<CoordinatedTurn>>(method: X) -> usize {
     let (turn, radar) = (CoordinatedTurn::default(), RangeBearing::published());
     let prior =
         Gaussian::from_std(&[1000.0, 300.0, 1000.0, 0.0, -0.05], &[10.0, 3.2, 10.0, 3.2, 0.01]).unwrap();

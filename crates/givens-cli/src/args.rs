@@ -1,7 +1,10 @@
 //! What the user typed.
 
+use crate::message::Stop;
+use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
+use core::num::{IntErrorKind, ParseIntError};
 use std::path::PathBuf;
 
 /// Nonlinear Gaussian state estimation from a model file and a table of measurements.
@@ -177,20 +180,42 @@ pub struct CheckArgs {
     pub method: MethodArgs,
 }
 
+/// The words for an option of `smooth` that was given to another command, where the parser's tip would mislead.
+pub fn of_smooth(error: &clap::Error) -> Option<Stop> {
+    let Some(ContextValue::String(found)) = error.get(ContextKind::InvalidArg) else { return None };
+    let value = match found.as_str() {
+        "--lag" => "ROWS",
+        "--point" => "T",
+        _ => return None,
+    };
+    let unknown = error.kind() == ErrorKind::UnknownArgument;
+    let stop = Stop::input(format!("{found} is an option of `smooth`"));
+    unknown.then(|| stop.help(format!("write givens smooth MODEL DATA {found} {value}")))
+}
+
 /// A whole number.
 fn whole(text: &str) -> Result<usize, String> {
-    text.parse().map_err(|_| "must be a whole number, zero or above".to_owned())
+    text.parse()
+        .map_err(|error| too_large(&error).unwrap_or("must be a whole number, zero or above").to_owned())
 }
 
 /// A number of runs.
 fn runs(text: &str) -> Result<u32, String> {
-    let above_zero = text.parse().ok().filter(|&runs: &u32| runs > 0);
-    above_zero.ok_or_else(|| "must be a whole number above zero".to_owned())
+    match text.parse() {
+        Ok(runs) if runs > 0 => Ok(runs),
+        Err(error) if too_large(&error).is_some() => Err("is too large a number of runs".to_owned()),
+        _ => Err("must be a whole number above zero".to_owned()),
+    }
+}
+
+/// The words for a whole number that cannot be held.
+fn too_large(error: &ParseIntError) -> Option<&'static str> {
+    (*error.kind() == IntErrorKind::PosOverflow).then_some("is too large a number")
 }
 
 /// A seed.
 fn seed(text: &str) -> Result<u64, String> {
-    text.parse().map_err(|_| "must be a whole number, zero or above".to_owned())
+    text.parse().map_err(|_| "must be a whole number from 0 to 2^64 - 1".to_owned())
 }
 
 /// A number.

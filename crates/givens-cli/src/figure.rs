@@ -88,7 +88,7 @@ fn track(plan: &Plan, session: &Session, i: usize) -> Track {
 fn true_way(plan: &Plan, i: usize, x: usize, y: usize) -> Option<Vec<[f64; 2]>> {
     let truth = plan.truth.as_ref()?;
     let (xs, ys) = (truth.states[x].as_ref()?, truth.states[y].as_ref()?);
-    Some(plan.truth_rows[i].iter().map(|&k| [xs[k], ys[k]]).collect())
+    Some(truth.rows[i].iter().map(|&k| [xs[k], ys[k]]).collect())
 }
 
 fn nis(est: &givens::Estimates) -> NisSeries {

@@ -3,6 +3,7 @@
 
 mod args;
 mod commands;
+mod failure;
 mod figure;
 mod files;
 mod message;
@@ -13,12 +14,17 @@ mod report;
 mod session;
 mod stdout;
 mod timetable;
+mod truth;
 
 use clap::Parser;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    let done = match args::Args::parse().command {
+    let command = match args::Args::try_parse() {
+        Ok(args) => args.command,
+        Err(error) => return misused(&error),
+    };
+    let done = match command {
         args::Command::Filter(args) => commands::filter::filter(&args),
         args::Command::Smooth(args) => commands::filter::smooth(&args),
         args::Command::Simulate(args) => commands::simulate::simulate(&args),
@@ -27,11 +33,21 @@ fn main() -> ExitCode {
         args::Command::Check(args) => commands::check::check(&args),
         args::Command::Completions { shell } => commands::completions::completions(shell),
     };
-    match done {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(stop) => {
-            message::say(&stop.message);
-            ExitCode::from(stop.code)
-        }
+    done.map_or_else(|stop| told(&stop), |()| ExitCode::SUCCESS)
+}
+
+fn told(stop: &message::Stop) -> ExitCode {
+    message::say(&stop.message);
+    ExitCode::from(stop.code)
+}
+
+/// Arguments that cannot be understood, or a question for help.
+fn misused(error: &clap::Error) -> ExitCode {
+    if let Some(stop) = args::of_smooth(error) {
+        return told(&stop);
     }
+    // what clap exits with: 0 for help and version, 2 for errors
+    let code = u8::try_from(error.exit_code()).unwrap_or(2);
+    let _ = error.print();
+    ExitCode::from(code)
 }

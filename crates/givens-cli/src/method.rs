@@ -134,7 +134,7 @@ fn in_range(model: &Model, choice: Choice, settings: &[Sourced]) -> Result<Choic
     let stop = match found {
         Some((_, Source::File(location))) => Stop::input(location.error(error.to_string()).to_string()),
         Some((_, Source::Line(typed))) => Stop::input(format!("{typed}: {}", error.must)),
-        None => Stop::input(error.to_string()),
+        None => Stop::input(format!("{}: {error}", choice.name)),
     };
     Err(match help {
         Some(help) => stop.help(help),

@@ -3,10 +3,13 @@
 use crate::args::{FilterArgs, ModelArgs};
 use crate::message::{Stop, say};
 use crate::method::{chosen, pair};
+use crate::truth::Truth;
+use core::f64::consts::TAU;
 use givens::Goal;
 use givens::registry::Choice;
-use givens_io::{Beginning, Model, Track, Tracks, Truth, read_tracks, read_truth};
-use std::path::Path;
+use givens::scalar::Shown;
+use givens_expr::suggest;
+use givens_io::{Beginning, Model, Track, Tracks, read_tracks};
 
 /// Everything that a run over data needs, read and checked.
 pub struct Plan {
@@ -17,27 +20,20 @@ pub struct Plan {
     pub beginnings: Vec<Beginning>,
     pub choice: Choice,
     pub truth: Option<Truth>,
-    /// The rows of the truth that are of each track.
-    pub truth_rows: Vec<Vec<usize>>,
 }
 
 impl Plan {
     pub fn new(args: &FilterArgs) -> Result<Self, Stop> {
-        let model = model(&args.model).map_err(|stop| {
-            if is_toml(&args.data) && !is_toml(&args.model.model) {
-                stop.help("the model comes first, then the data")
-            } else {
-                stop
-            }
-        })?;
+        let model = model(&args.model)?;
         let choice = chosen(&model, &args.method)?;
         Self::with(model, choice, &args.data, args.truth.as_deref())
     }
 
     pub fn with(model: Model, choice: Choice, data: &str, truth: Option<&str>) -> Result<Self, Stop> {
         let tracks = read_tracks(data, &model)?;
-        ignored(data, &tracks.ignored);
+        ignored(data, &tracks.ignored, &absent(&model, &tracks));
         let data = source_name(data);
+        degrees(data, &model, &tracks);
         let beginnings = tracks.tracks.iter().map(|track| {
             model.begin(track).map_err(|error| {
                 let line = error.line.map_or(String::new(), |line| format!("{line}:"));
@@ -46,19 +42,8 @@ impl Plan {
             })
         });
         let beginnings = beginnings.collect::<Result<_, _>>()?;
-        let truth = match truth {
-            Some(path) => {
-                let truth = read_truth(path, &model, &tracks)?;
-                ignored(path, &truth.ignored);
-                Some(truth)
-            }
-            None => None,
-        };
-        let mut truth_rows = vec![Vec::new(); tracks.tracks.len()];
-        for (row, &track) in truth.iter().flat_map(|truth| truth.tracks.iter().enumerate()) {
-            truth_rows[track].push(row);
-        }
-        Ok(Self { model, data: data.to_owned(), tracks, beginnings, choice, truth, truth_rows })
+        let truth = truth.map(|path| Truth::read(path, &model, &tracks)).transpose()?;
+        Ok(Self { model, data: data.to_owned(), tracks, beginnings, choice, truth })
     }
 
     /// The time at which `--point` stands on the axis of each track.
@@ -82,12 +67,18 @@ impl Plan {
                 None => stop,
             })
         };
-        self.tracks.tracks.iter().zip(&self.beginnings).map(point).collect()
+        let goals = self.tracks.tracks.iter().zip(&self.beginnings).map(point);
+        let goals = goals.collect::<Result<Vec<_>, _>>()?;
+        let known = |(i, goal): (usize, &Goal)| match (&self.truth, goal) {
+            (Some(truth), Goal::Point(t)) => truth.row(i, *t).is_some(),
+            _ => true,
+        };
+        if !goals.iter().enumerate().any(known) {
+            return Err(Stop::input(format!("--point {text}: the truth has no row at this time"))
+                .help("leave --truth out, or add the row to it"));
+        }
+        Ok(goals)
     }
-}
-
-fn is_toml(path: &str) -> bool {
-    Path::new(path).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"))
 }
 
 /// A file as messages call it.
@@ -95,12 +86,45 @@ pub fn source_name(path: &str) -> &str {
     if path == "-" { "standard input" } else { path }
 }
 
-/// Names columns that were not read.
-pub fn ignored(file: &str, columns: &[String]) {
+/// Names columns that were not read, and what they may have been meant for among the `absent` ones.
+pub fn ignored(file: &str, columns: &[String], absent: &[&str]) {
     let file = source_name(file);
     if !columns.is_empty() {
         let plural = if columns.len() == 1 { "" } else { "s" };
-        say(&format!("{file}: column{plural} not used by the model: {}", columns.join(", ")));
+        let named = columns.iter().map(|column| match suggest(column, absent.iter().copied()) {
+            Some(near) => format!("{column} (did you mean `{near}`?)"),
+            None => column.clone(),
+        });
+        let named: Vec<String> = named.collect();
+        say(&format!("{file}: column{plural} not used by the model: {}", named.join(", ")));
+    }
+}
+
+/// Columns that a table could have and has not.
+pub fn absent<'m>(model: &'m Model, tracks: &Tracks) -> Vec<&'m str> {
+    let rows = || tracks.tracks.iter().flat_map(|track| &track.rows);
+    let empty = |i: usize| rows().all(|row| row.z.get(i).is_none_or(|z| z.is_nan()));
+    let measures = model.sensors.iter().flat_map(|sensor| &sensor.columns).enumerate();
+    let mut names: Vec<&str> = measures.filter(|(i, _)| empty(*i)).map(|(_, name)| name.as_str()).collect();
+    names.extend((!tracks.has_sensor).then_some("sensor"));
+    names.extend((!tracks.has_track_id).then_some("track_id"));
+    names
+}
+
+/// A note on angles of period 2π with values that look like degrees.
+fn degrees(file: &str, model: &Model, tracks: &Tracks) {
+    for sensor in &model.sensors {
+        for ((name, period), i) in sensor.columns.iter().zip(&sensor.angles).zip(sensor.measures.clone()) {
+            let rows = tracks.tracks.iter().flat_map(|track| &track.rows);
+            let beyond = rows.map(|row| row.z[i]).find(|z| z.abs() > TAU + 0.1);
+            if let (Some(z), true) = (beyond, *period == Some(TAU)) {
+                say(&format!(
+                    "{file}: `{name}` has values such as {}, beyond 2π\n  help: if it is in degrees, write angles = {{ {name} = \
+                     360 }} in [[sensor]]",
+                    Shown(z)
+                ));
+            }
+        }
     }
 }
 

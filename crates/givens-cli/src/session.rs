@@ -1,9 +1,9 @@
 //! A plan carried out: the method over every track.
 
+use crate::failure;
 use crate::message::count;
 use crate::plan::Plan;
 use crate::progress::Progress;
-use crate::report;
 use givens::metrics::{Accuracy, Truth};
 use givens::registry::Choice;
 use givens::{Estimates, Goal, Row};
@@ -37,9 +37,9 @@ impl Session {
             let outcome = choice.run(model, sensors, rows, begin.time, &begin.prior, *goal);
             if let Some((row, error)) = &outcome.failure {
                 let at = &track.rows[begin.row + row];
-                let place = report::place(&plan.data, track, at, error.time);
+                let place = failure::place(&plan.data, track, at, error.time);
                 let what = if *goal == Goal::Filter { "filter" } else { "smoother" };
-                let told = report::failure(&plan.model, &place, what, Some(choice.form), error);
+                let told = failure::told(&plan.model, &place, what, Some(choice.form), error);
                 let finished = match outcome.estimates.len() {
                     0 => "no row".to_owned(),
                     rows => count(rows, "row"),
@@ -78,14 +78,10 @@ impl Session {
         let est = &self.answers[i].estimates;
         let n = plan.model.states.len();
         let mut states = vec![f64::NAN; est.len() * n];
-        let times = &plan.truth_rows[i];
         for (row, &t) in est.time.iter().enumerate() {
             // a fixed point is of one time, whatever the row
             let t = if let Goal::Point(t) = self.goals[i] { t } else { t };
-            let near = times.partition_point(|&k| truth.times[k] < t - close(t));
-            let Some(&k) = times.get(near).filter(|&&k| (truth.times[k] - t).abs() <= close(t)) else {
-                continue;
-            };
+            let Some(k) = truth.row(i, t) else { continue };
             for (state, column) in truth.states.iter().enumerate() {
                 if let Some(column) = column {
                     states[row * n + state] = column[k];
@@ -102,9 +98,4 @@ impl Session {
             .filter_map(|i| Some(Accuracy::of(&self.answers[i].estimates, &self.truth_at_rows(plan, i)?)));
         Accuracy::pooled(accuracies)
     }
-}
-
-/// Times that differ by rounding only are the same.
-fn close(t: f64) -> f64 {
-    1e-9 * t.abs().max(1.0)
 }

@@ -3,6 +3,7 @@
 use crate::args::SimulateArgs;
 use crate::message::Stop;
 use givens::model::Transition;
+use givens::scalar::Shown;
 use givens_io::{Model, Row, Track, Tracks};
 
 /// Rows, of all runs together, that fit into memory.
@@ -55,14 +56,19 @@ fn distance(model: &Model, args: &SimulateArgs) -> Result<f64, Stop> {
         return Err(Stop::input("the model has no step").help("say the time between rows: --every DT"));
     };
     if !(every > 0.0 && every.is_finite()) {
-        return Err(Stop::input(format!("--every {every}: the time between rows must be above zero")));
+        return Err(Stop::input(format!(
+            "--every {}: the time between rows must be above zero",
+            Shown(every)
+        )));
     }
     if let Some(step) = model.transition.period() {
         let steps = every / step;
         if (steps - steps.round()).abs() > 1e-6 || steps.round() < 1.0 {
-            let stop =
-                Stop::input(format!("--every {every}: this is not a whole number of the model's steps"));
-            return Err(stop.help(format!("one step is {step}; choose a multiple of it")));
+            let stop = Stop::input(format!(
+                "--every {}: this is not a whole number of the model's steps",
+                Shown(every)
+            ));
+            return Err(stop.help(format!("one step is {}; choose a multiple of it", Shown(step))));
         }
     }
     Ok(every)

@@ -35,7 +35,7 @@ pub(crate) fn call(parser: &mut Parser<'_>, name: &str, span: Range<usize>) -> R
     }
     let node = build(parser, function, &arguments)?;
     parser.grown(&span)?;
-    Ok(Term { node, span: whole })
+    parser.defined(Term { node, span: whole })
 }
 
 fn build(parser: &mut Parser<'_>, function: &Function, arguments: &[Term]) -> Result<crate::Node, ExprError> {

@@ -146,7 +146,7 @@ impl Parser<'_> {
                 self.advance()?;
                 let right = self.expression(NOT)?;
                 self.condition(&right, "`not`")?;
-                Ok(self.made(Unary::Not, &span, &right))
+                self.made(Unary::Not, &span, &right)
             }
             Token::Name("not") => {
                 Err(ExprError::new(span, "`not` may not stand here").help("write `(not …)`"))
@@ -177,18 +177,19 @@ impl Parser<'_> {
                 let right = self.expression(NEGATION)?;
                 self.number(&right, &format!("`{sign}`"))?;
                 let whole = span.start..right.span.end;
-                Ok(if sign == "-" {
+                if sign == "-" {
                     self.made(Unary::Neg, &span, &right)
                 } else {
-                    Term { span: whole, ..right }
-                })
+                    Ok(Term { span: whole, ..right })
+                }
             }
             Token::Sign(_) | Token::End => Err(self.missing_operand()),
         }
     }
 
-    fn made(&mut self, op: Unary, sign: &Range<usize>, right: &Term) -> Term {
-        Term { node: self.graph.unary(op, right.node), span: sign.start..right.span.end }
+    fn made(&mut self, op: Unary, sign: &Range<usize>, right: &Term) -> Result<Term, ExprError> {
+        let node = self.graph.unary(op, right.node);
+        self.defined(Term { node, span: sign.start..right.span.end })
     }
 
     fn combine(&mut self, sign: &str, left: &Term, right: &Term) -> Result<Term, ExprError> {
@@ -219,7 +220,7 @@ impl Parser<'_> {
                 self.graph.unary(Unary::Not, equal)
             }
         };
-        Ok(Term { node, span: left.span.start..right.span.end })
+        self.defined(Term { node, span: left.span.start..right.span.end })
     }
 
     /// Reads the `)` that belongs to the `(` at `open`.

@@ -79,12 +79,26 @@ impl<'p> Parser<'p> {
             Token::End => ExprError::new(
                 self.span.clone(),
                 "the expression ends where a number, a name or `(` should follow",
-            ),
+            )
+            .help("complete it, or leave out what stands last"),
             _ => ExprError::new(
                 self.span.clone(),
                 format!("expected a number, a name or `(`, found `{found}`"),
-            ),
+            )
+            .help(format!("write one before `{found}`, or leave `{found}` out")),
         }
+    }
+
+    /// An error if `term` is a constant that does not exist, such as `0/0`.
+    pub(crate) fn defined(&self, term: Term) -> Result<Term, ExprError> {
+        let undefined = self.graph.constant_value(term.node).is_some_and(f64::is_nan);
+        // what a full graph could not take up is told as that
+        if !undefined || self.graph.is_full() {
+            return Ok(term);
+        }
+        let text = short(self.text.get(term.span.clone()).unwrap_or_default());
+        let error = ExprError::new(term.span, format!("`{text}` is a constant that is not a number"));
+        Err(error.help("look for a division by zero, or the root or logarithm of a negative number"))
     }
 
     /// An error if the graph has no room for what was just built.

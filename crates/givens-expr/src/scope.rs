@@ -88,6 +88,10 @@ impl Scope {
         if let Some(help) = hints::name(name) {
             return error.help(help);
         }
+        // controls are named so in model files
+        if let Some(Meaning::Is(_)) = self.get(&format!("u_{name}")) {
+            return error.help(format!("did you mean the control `u_{name}`?"));
+        }
         if let Some(near) = suggest(name, self.names().chain(["pi"])) {
             return error.help(format!("did you mean `{near}`?"));
         }

@@ -128,3 +128,24 @@ fn a_scope_keeps_its_names_in_order_and_tells_what_it_replaced() {
     assert_eq!(session.scope.names().next(), Some("x"));
     assert_eq!(session.scope.names().last(), Some("z"));
 }
+
+#[test]
+fn a_constant_that_is_not_a_number_is_refused_where_it_stands() {
+    let mut session = Session::new();
+    for (text, span) in [
+        ("0/0", 0..3),
+        ("x + log(-1)", 4..11),
+        ("x*sqrt(2 - 3)", 2..13),
+        ("where(x > 0, x, 0/0)", 16..19),
+        ("-acos(2)", 1..8),
+        ("(-8)^(1/3)", 0..10),
+    ] {
+        let error = session.try_read(text).unwrap_err();
+        assert_eq!(error.span, span, "{text}: {error}");
+        assert!(error.message.ends_with("is a constant that is not a number"), "{text}: {error}");
+    }
+    // of what depends on something, nobody knows yet
+    for text in ["0/x", "log(-x)", "x/0"] {
+        session.try_read(text).unwrap();
+    }
+}

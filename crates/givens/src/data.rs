@@ -1,5 +1,7 @@
 //! Measurements of one trajectory.
 
+use crate::scalar::Shown;
+
 /// One row of a trajectory: a time, the measurement there, and the controls that hold from then on.
 #[derive(Clone, Copy, Debug)]
 pub struct Row<'a> {
@@ -62,6 +64,7 @@ impl core::fmt::Display for DataError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match *self {
             Self::Time { row, time } => {
+                let time = Shown(time);
                 write!(
                     f,
                     "row {row}: time {time} is before the row above or the initial belief, or not finite"

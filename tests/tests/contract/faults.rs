@@ -1,7 +1,7 @@
 //! A step that fails says why, and leaves the belief as it was.
 
 use givens::filter::{Cdkf, Ckf, Ckf5, Ekf, Qkf, SrCdkf, SrCkf, SrCkf5, SrEkf, SrQkf, SrUkf, Ukf};
-use givens::filter::{Fault, Filter, Gaussian, Matrix, Method, Prior, Quantity, Sizes, StepError};
+use givens::filter::{Fault, Filter, Gaussian, Matrix, Method, Over, Prior, Quantity, Sizes, StepError};
 use givens::model::{At, Noise, Observation, Transition};
 use givens::rule::Rule;
 use givens::scalar::Real;
@@ -77,7 +77,7 @@ impl Observation for Model {
     }
 }
 
-fn start<X: Method>(method: X, model: &Model, smoothing: bool) -> Filter<'_, X, Model, f64, Vec<f64>> {
+fn start<X: Over<Model>>(method: X, model: &Model, smoothing: bool) -> Filter<'_, X, Model, f64, Vec<f64>> {
     let shape = method.rule().shape(2);
     let sizes = Sizes::of_model(model, shape).with_sensor(model, shape);
     let memory = vec![0.0; Filter::<X, Model, f64, Vec<f64>>::memory_len(&method, sizes, smoothing)];
@@ -87,7 +87,7 @@ fn start<X: Method>(method: X, model: &Model, smoothing: bool) -> Filter<'_, X, 
 }
 
 /// The step must fail, and leave the belief.
-fn fails<X: Method>(
+fn fails<X: Over<Model>>(
     name: &str,
     filter: &mut Filter<'_, X, Model, f64, Vec<f64>>,
     step: impl FnOnce(&mut Filter<'_, X, Model, f64, Vec<f64>>) -> Result<(), StepError>,
@@ -102,7 +102,7 @@ fn fails<X: Method>(
     error.fault
 }
 
-fn fails_well<X: Method>(name: &str, method: X) {
+fn fails_well<X: Over<Model>>(name: &str, method: X) {
     let good = Model(Wrong::Nothing);
     let z = [0.5, 0.4];
     let expect = |fault: Fault, expected: Fault| assert_eq!(fault, expected, "{name}");

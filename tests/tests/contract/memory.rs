@@ -1,8 +1,8 @@
 //! The memory of a filter: exactly the length that its type states, and no step beyond it.
 
 use givens::filter::{
-    Cdkf, Ckf, Ckf5, Ekf, Fault, Filter, Method, Prior, Qkf, Sizes, SrCdkf, SrCkf, SrCkf5, SrEkf, SrQkf,
-    SrUkf, StepError, Ukf,
+    Cdkf, Ckf, Ckf5, Ekf, Fault, Filter, Over, Prior, Qkf, Sizes, SrCdkf, SrCkf, SrCkf5, SrEkf, SrQkf, SrUkf,
+    StepError, Ukf,
 };
 use givens::registry::ENTRIES;
 use givens::rule::{CentralDifference, Cubature3, Cubature5, GaussHermite, Rule, Shape, Taylor, Unscented};
@@ -10,7 +10,7 @@ use givens::scalar::Real;
 use givens_tests::models::{Motion, Problem};
 
 /// Starts, and goes through all rows, in a slice of `len` scalars that cannot grow.
-fn steps<T: Real, X: Method>(
+fn steps<T: Real, X: Over<Motion>>(
     method: X,
     problem: &Problem,
     sizes: Sizes,
@@ -37,7 +37,7 @@ fn steps<T: Real, X: Method>(
     Ok(())
 }
 
-fn suffices<X: Method>(name: &str, method: X, memory: impl Fn(Sizes, bool) -> usize) {
+fn suffices<X: Over<Motion>>(name: &str, method: X, memory: impl Fn(Sizes, bool) -> usize) {
     for (n, d) in [(1, 1), (2, 4), (4, 2), (5, 5)] {
         let problem = Problem::random(3, n, d, 4, 0.05);
         let shape = method.rule().shape(n);

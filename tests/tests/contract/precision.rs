@@ -1,8 +1,8 @@
 //! Single precision agrees with double, to single precision.
 
 use givens::filter::{
-    Block, Cdkf, Ckf, Ckf5, Ekf, Filter, Method, Prior, Qkf, Sizes, SrCdkf, SrCkf, SrCkf5, SrEkf, SrQkf,
-    SrUkf, Ukf,
+    Block, Cdkf, Ckf, Ckf5, Ekf, Filter, Over, Prior, Qkf, Sizes, SrCdkf, SrCkf, SrCkf5, SrEkf, SrQkf, SrUkf,
+    Ukf,
 };
 use givens::rule::Rule;
 use givens::scalar::Real;
@@ -12,7 +12,7 @@ use givens_tests::{cov_error, mean_error};
 use proptest::prelude::*;
 
 /// Filters the problem in a scalar: the means, covariances and log-likelihoods of all rows, as `f64`.
-fn filtered<T: Real, X: Method>(method: X, problem: &Problem) -> Vec<(Vec<f64>, Vec<f64>, f64)> {
+fn filtered<T: Real, X: Over<Motion>>(method: X, problem: &Problem) -> Vec<(Vec<f64>, Vec<f64>, f64)> {
     let shape = method.rule().shape(problem.mean.len());
     let sizes = Sizes::of_model(&problem.model, shape).with_sensor(&problem.sensor, shape);
     let memory = vec![T::zero(); Filter::<X, Motion, T, Vec<T>>::memory_len(&method, sizes, false)];
@@ -31,7 +31,7 @@ fn filtered<T: Real, X: Method>(method: X, problem: &Problem) -> Vec<(Vec<f64>, 
     out
 }
 
-fn agrees<X: Method>(name: &str, method: X, problem: &Problem) -> Result<(), TestCaseError> {
+fn agrees<X: Over<Motion>>(name: &str, method: X, problem: &Problem) -> Result<(), TestCaseError> {
     let (single, double) = (filtered::<f32, _>(method, problem), filtered::<f64, _>(method, problem));
     let n = problem.mean.len();
     for (k, (a, b)) in single.iter().zip(&double).enumerate() {

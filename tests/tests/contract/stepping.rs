@@ -1,8 +1,8 @@
 //! Stepping a filter by hand: the same as a run, for every type of method, and with the smoothers of the core.
 
 use givens::filter::{
-    Belief, Block, Cdkf, Ckf, Ckf5, Ekf, Filter, Form, Method, Prior, Qkf, Sizes, SrCdkf, SrCkf, SrCkf5,
-    SrEkf, SrQkf, SrUkf, Ukf,
+    Belief, Block, Cdkf, Ckf, Ckf5, Ekf, Filter, Form, Over, Prior, Qkf, Sizes, SrCdkf, SrCkf, SrCkf5, SrEkf,
+    SrQkf, SrUkf, Ukf,
 };
 use givens::registry::{ENTRIES, resolve};
 use givens::rule::Rule;
@@ -13,7 +13,7 @@ use givens_tests::models::{Motion, Problem};
 type Own<'m, X> = Filter<'m, X, Motion, f64, Vec<f64>>;
 
 /// The filter of a problem in memory of exactly its length.
-fn start<X: Method>(method: X, problem: &Problem, smoothing: bool) -> Own<'_, X> {
+fn start<X: Over<Motion>>(method: X, problem: &Problem, smoothing: bool) -> Own<'_, X> {
     let shape = method.rule().shape(problem.mean.len());
     let sizes = Sizes::of_model(&problem.model, shape).with_sensor(&problem.sensor, shape);
     let memory = vec![0.0; Own::<X>::memory_len(&method, sizes, smoothing)];
@@ -49,7 +49,7 @@ fn run(name: &str, problem: &Problem, goal: Goal) -> Estimates {
     crate::run(&resolve(name, &[]).unwrap(), problem, goal)
 }
 
-fn steps_like_the_registry<X: Method>(name: &str, method: X) {
+fn steps_like_the_registry<X: Over<Motion>>(name: &str, method: X) {
     let problem = problem();
     let est = run(name, &problem, Goal::Filter);
     let mut filter = start(method, &problem, false);
@@ -82,7 +82,7 @@ fn the_separate_update_by_hand_is_the_option_of_the_registry() {
     }
 }
 
-fn smooths_like_the_registry<X: Method>(name: &str, method: X) {
+fn smooths_like_the_registry<X: Over<Motion>>(name: &str, method: X) {
     let (problem, square_root) = (problem(), X::Form::SQUARE_ROOT);
     let n = problem.mean.len();
     let est = run(name, &problem, Goal::Interval);
@@ -122,7 +122,7 @@ fn the_smoothers_of_the_core_by_hand_are_those_of_a_run() {
     every_type!(smooths_like_the_registry);
 }
 
-fn means_alone<X: Method>(name: &str, method: X) {
+fn means_alone<X: Over<Motion>>(name: &str, method: X) {
     let problem = problem();
     let est = run(name, &problem, Goal::Interval);
     let mut filter = start(method, &problem, true);
@@ -160,7 +160,7 @@ fn the_mean_only_way_back_gives_the_smoothed_means() {
     every_type!(means_alone);
 }
 
-fn stands_still<X: Method>(name: &str, method: X) {
+fn stands_still<X: Over<Motion>>(name: &str, method: X) {
     let problem = problem();
     let mut filter = start(method, &problem, true);
     filter.predict(1.0).unwrap();
@@ -181,7 +181,7 @@ fn no_time_and_no_measurement_change_nothing() {
     every_type!(stands_still);
 }
 
-fn factor_is_lower<X: Method>(name: &str, method: X) {
+fn factor_is_lower<X: Over<Motion>>(name: &str, method: X) {
     let problem = problem();
     let n = problem.mean.len();
     let mut filter = start(method, &problem, false);

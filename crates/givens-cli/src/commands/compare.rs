@@ -10,6 +10,7 @@ use crate::session::Session;
 use crate::stdout;
 use givens::metrics::{Consistency, Verdict};
 use givens::registry::{Choice, Setting, find};
+use givens::scalar::Shown;
 use givens::{Estimates, Goal};
 use givens_io::Model;
 use std::io::{self, Write};
@@ -112,7 +113,7 @@ fn line(plan: &Plan, name: &str, choice: &Choice) -> (Vec<String>, Vec<String>) 
         if own_name { name.to_owned() } else { format!("{name} = {}", choice.name) },
         rows.to_string(),
         filtered.failures.len().to_string(),
-        format!("{:.4}", filtered.log_likelihood()),
+        format!("{:.4}", Shown(filtered.log_likelihood())),
         digits(consistency.ratio),
         verdict.to_owned(),
         if rows == 0 { "-".to_owned() } else { format!("{:.2}", 1e6 * seconds / rows as f64) },

@@ -1,10 +1,10 @@
 //! `givens simulate`: trajectories and measurements drawn from a model.
 
 use crate::args::SimulateArgs;
+use crate::failure;
 use crate::files::{self, Sink};
 use crate::message::Stop;
-use crate::plan::{ignored, model, source_name};
-use crate::report;
+use crate::plan::{absent, ignored, model, source_name};
 use crate::timetable::{bounded, regular};
 use givens::Row;
 use givens::filter::{Gaussian, StepError};
@@ -29,7 +29,7 @@ pub fn simulate(args: &SimulateArgs) -> Result<(), Stop> {
         for run in 0..args.runs {
             match one(&model, &prior, track, args, at, run) {
                 Ok(drawn) => runs.push(drawn),
-                Err(error) => failures.push(failure(&model, args, track, run, &error)),
+                Err(error) => failures.push(words(&model, args, track, run, &error)),
             }
         }
     }
@@ -56,7 +56,7 @@ fn prior(model: &Model) -> Result<Gaussian, Stop> {
 fn tracks(model: &Model, args: &SimulateArgs) -> Result<Tracks, Stop> {
     let Some(path) = &args.times else { return regular(model, args) };
     let tracks = read_times(path, model)?;
-    ignored(path, &tracks.ignored);
+    ignored(path, &tracks.ignored, &absent(&model, &tracks));
     if args.runs > 1 && tracks.has_track_id {
         let stop = Stop::input(format!("--runs {}: the table of --times has tracks of its own", args.runs));
         return Err(stop.help("leave --runs out, or remove its column `track_id`"));
@@ -89,12 +89,12 @@ fn one(
 }
 
 /// Which run failed, where and why. A step of a simulation is a row.
-fn failure(model: &Model, args: &SimulateArgs, track: &Track, run: u32, error: &StepError) -> String {
+fn words(model: &Model, args: &SimulateArgs, track: &Track, run: u32, error: &StepError) -> String {
     let which = if args.runs > 1 { format!("run {run}, ") } else { String::new() };
     let row = track.rows.get(error.step).or(track.rows.last());
     let place = match (&args.times, row) {
-        (Some(path), Some(row)) => report::place(source_name(path), track, row, error.time),
+        (Some(path), Some(row)) => failure::place(source_name(path), track, row, error.time),
         _ => format!("{}: t = {}", model.file, track.time_text(error.time)),
     };
-    report::failure(model, &format!("{which}{place}"), "simulation", None, error)
+    failure::told(model, &format!("{which}{place}"), "simulation", None, error)
 }

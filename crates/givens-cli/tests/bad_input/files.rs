@@ -103,7 +103,7 @@ fn wrong_times_of_smoothers() {
                 "lag_of_filter",
                 NONE,
                 "filter model.toml data.csv -o out.csv --lag 1",
-                &["unexpected argument '--lag'"],
+                &["--lag is an option of `smooth`", "givens smooth MODEL DATA --lag ROWS"],
             ),
         ],
     );

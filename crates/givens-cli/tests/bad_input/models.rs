@@ -106,7 +106,7 @@ fn models_that_are_none_and_filters_that_do_not_fit() {
                 "swapped",
                 NONE,
                 "filter data.csv model.toml -o out.csv",
-                &["data.csv:1:", "not valid TOML", "the model comes first"],
+                &["data.csv:1:", "this is a table, not a model file", "the model comes first"],
             ),
             (
                 "method_option",

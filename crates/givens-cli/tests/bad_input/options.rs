@@ -97,6 +97,30 @@ fn wrong_methods_and_options() {
                 "filter model.toml data.csv -o out.csv --method cdkf --set eta=0.9",
                 &["--set eta=0.9: must be"],
             ),
+            (
+                "eta_overflow",
+                NONE,
+                "filter model.toml data.csv -o out.csv --method cdkf --set eta=1e200",
+                &["--set eta=1e200: must be at least 1, and at most 1e9"],
+            ),
+            (
+                "alpha_underflow",
+                NONE,
+                "filter model.toml data.csv -o out.csv --set alpha=1e-170",
+                &["--set alpha=1e-170: the points, ", "the model has n = 4"],
+            ),
+            (
+                "lag_too_large",
+                NONE,
+                "smooth model.toml data.csv -o out.csv --lag 99999999999999999999999",
+                &["for '--lag <ROWS>': is too large a number"],
+            ),
+            (
+                "runs_too_large",
+                NONE,
+                "simulate model.toml --steps 3 --every 1 --seed 1 --runs 99999999999",
+                &["for '--runs <N>': is too large a number of runs"],
+            ),
         ],
     );
 }

@@ -106,3 +106,23 @@ fn compare_names_the_failures_of_each_method() {
     let table = found.stdout.lines().nth(1).unwrap();
     assert_eq!(table.split_whitespace().take(3).collect::<Vec<_>>(), ["ekf", "6", "1"]);
 }
+
+#[test]
+fn a_derivative_that_does_not_exist_is_told_with_a_method_that_needs_none() {
+    let folder = folder("derivative");
+    folder.write("walk.toml", &WALK.replace("z = \"x\"", "z = \"hypot(x, 0)\""));
+    folder.write("data.csv", "time,z\n0,1\n");
+    let found = folder.run("filter walk.toml data.csv --method ekf");
+    assert_eq!(found.code, 1);
+    let words = "the derivative of the predicted measure `z`, with respect to the state at the mean, is not a finite number; use \
+                 a method without derivatives (--method sr-ckf)";
+    assert!(found.stderr.contains(words), "{}", found.stderr);
+}
+
+#[test]
+fn a_huge_number_is_written_with_an_exponent() {
+    let folder = folder("huge");
+    folder.write("data.csv", "time,z\n1,1e150\n2,1\n");
+    let found = folder.run("filter walk.toml data.csv").good();
+    assert!(found.stderr.contains("mean NIS 4.306e299 per") && found.stderr.len() < 300, "{}", found.stderr);
+}

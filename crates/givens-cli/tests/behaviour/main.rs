@@ -21,7 +21,9 @@ use common::models::{DATA, MODEL, TRUTH, WALK};
 
 /// A folder with the good files.
 fn folder(name: &str) -> Folder {
-    let folder = Folder::new(name);
+    // two tests may use one name at once
+    let test = std::thread::current().name().unwrap_or("").replace("::", "/");
+    let folder = Folder::new(&format!("{test}/{name}"));
     folder.write("model.toml", MODEL).write("data.csv", DATA);
     folder.write("truth.csv", TRUTH).write("walk.toml", WALK);
     folder

@@ -1,7 +1,7 @@
 //! What the command tells about itself and about models.
 
 use super::common::Folder;
-use super::folder;
+use super::{WALK, folder};
 use givens::registry::{ENTRIES, OPTIONS};
 
 const COMMANDS: [&str; 7] = ["filter", "smooth", "simulate", "compare", "methods", "check", "completions"];
@@ -130,4 +130,26 @@ fn the_examples_of_the_help_run() {
         }
         assert!(count > 0, "{help}");
     }
+}
+
+#[test]
+fn a_column_that_is_not_used_is_told_with_the_one_it_may_have_been_meant_for() {
+    let folder = folder("near");
+    folder.write("data.csv", "time,snesor,z,weight\n1,level,1,70\n").write("truth.csv", "time,x,xx\n1,1,2\n");
+    let found = folder.run("filter walk.toml data.csv --truth truth.csv").good();
+    assert!(found.stderr.contains("snesor (did you mean `sensor`?), weight\n"), "{}", found.stderr);
+    // what the table has already is not suggested again
+    assert!(found.stderr.contains("truth.csv: column not used by the model: xx\n"), "{}", found.stderr);
+}
+
+#[test]
+fn an_angle_beyond_its_period_is_noted() {
+    let folder = folder("degrees");
+    folder.write("walk.toml", &WALK.replace("std = [1]\n", "std = [1]\nangles = [\"z\"]\n"));
+    folder.write("data.csv", "time,z\n1,0.5\n2,300\n");
+    let found = folder.run("filter walk.toml data.csv").good();
+    let words = "data.csv: `z` has values such as 300, beyond 2π\n  help: if it is in degrees, write angles = { z = 360 }";
+    assert!(found.stderr.contains(words), "{}", found.stderr);
+    folder.write("data.csv", "time,z\n1,0.5\n2,-6.2\n");
+    assert!(!folder.run("filter walk.toml data.csv").good().stderr.contains("degrees"));
 }

@@ -22,11 +22,27 @@ fn errors_and_coverage_are_those_of_the_hand() {
 }
 
 #[test]
-fn a_truth_at_no_row_is_told() {
+fn a_truth_at_no_row_is_refused_with_both_spans() {
     let folder = folder("elsewhere");
-    folder.write("data.csv", DATA).write("truth.csv", "time,x\n1.5,9\n");
-    let found = folder.run("filter walk.toml data.csv --truth truth.csv").good();
-    assert!(found.stderr.contains("no row of the data stands at a time of the truth"), "{}", found.stderr);
+    folder.write("data.csv", DATA).write("truth.csv", "time,x\n1.5,9\n7,9\n");
+    for command in ["filter walk.toml data.csv -o out.csv", "compare walk.toml data.csv --methods ckf"] {
+        let found = folder.run(&format!("{command} --truth truth.csv"));
+        assert_eq!((found.code, found.stdout.as_str()), (2, ""));
+        let words = "truth.csv: no time of the truth is that of a row of the data\n  help: the truth goes from 1.5 to 7, the \
+                     data from 1 to 2\n";
+        assert!(found.stderr.contains(words), "{}", found.stderr);
+    }
+    assert!(!folder.files().contains(&"out.csv".to_owned()));
+    // times of the calendar are told as such
+    folder
+        .write("data.csv", "time,z\n2026-03-01T00:00:00Z,1\n")
+        .write("truth.csv", "time,x\n2026-03-02T00:00:00Z,9\n");
+    let found = folder.run("filter walk.toml data.csv --truth truth.csv");
+    assert!(found.stderr.contains("to 2026-03-02T00:00:00Z, the data from 2026-03-0"), "{}", found.stderr);
+    // a fixed point needs the truth at its own time
+    folder.write("data.csv", DATA).write("truth.csv", "time,x\n2,9\n");
+    let found = folder.run("smooth walk.toml data.csv --point 1 --truth truth.csv");
+    assert!(found.code == 2 && found.stderr.contains("--point 1: the truth has no row"), "{}", found.stderr);
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! What can go wrong in a step: data, not words.
 
 use crate::rule::RuleError;
+use crate::scalar::Shown;
 use core::fmt;
 
 /// A symmetric matrix that a step needs a root of.
@@ -48,6 +49,16 @@ pub enum Quantity {
     Transition,
     /// The value of a measure.
     Observation,
+    /// The derivative of the transition with respect to the state, at the mean.
+    TransitionDerivative,
+    /// The derivative of a measure with respect to the state, at the mean.
+    ObservationDerivative,
+    /// The drift of a state.
+    Drift,
+    /// The derivative of the drift with respect to the state, at the mean.
+    DriftDerivative,
+    /// The diffusion of a state.
+    Diffusion,
     /// The process noise.
     ProcessNoise,
     /// The measurement noise.
@@ -71,6 +82,11 @@ impl Quantity {
         match self {
             Quantity::Transition => "transition",
             Quantity::Observation => "predicted measure",
+            Quantity::TransitionDerivative => "derivative of the transition",
+            Quantity::ObservationDerivative => "derivative of the predicted measure",
+            Quantity::Drift => "drift",
+            Quantity::DriftDerivative => "derivative of the drift",
+            Quantity::Diffusion => "diffusion",
             Quantity::ProcessNoise => "process noise",
             Quantity::MeasurementNoise => "measurement noise",
             Quantity::Measurement => "measurement",
@@ -80,6 +96,18 @@ impl Quantity {
             Quantity::Parameter => "parameter",
         }
     }
+}
+
+/// Why a solver went no further.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Halt {
+    /// It took as many steps as a gap may have.
+    StepLimit {
+        /// How many.
+        limit: usize,
+    },
+    /// No step that the rounding of time leaves meets the tolerance.
+    StepTooSmall,
 }
 
 /// The kind of a failure, with the place inside the step.
@@ -125,6 +153,25 @@ pub enum Fault {
         /// The length it has.
         found: usize,
     },
+    /// The model has controls, and they were never set.
+    ControlsNotSet {
+        /// How many it has.
+        controls: usize,
+    },
+    /// A diffusion that depends on the state, for a time update that cannot serve it.
+    StateDependentDiffusion,
+    /// A covariance whose factor a time update divides by, and that has no inverse: a state is known exactly.
+    SingularFactor {
+        /// The pivot, from zero.
+        pivot: usize,
+    },
+    /// The solver of a time update went no further.
+    Solver {
+        /// Why.
+        why: Halt,
+        /// The smallest step it tried.
+        smallest: f64,
+    },
     /// An option out of its range.
     Option(RuleError),
 }
@@ -142,14 +189,45 @@ impl fmt::Display for Fault {
                 measure + 1
             ),
             Fault::NotFinite { quantity, component } => {
-                write!(f, "component {} of the {} is not a finite number", component + 1, quantity.name())
+                write!(f, "component {} of the {} is not a finite number", component + 1, quantity.name())?;
+                match quantity {
+                    Quantity::TransitionDerivative | Quantity::ObservationDerivative => f.write_str(
+                        ": taken with respect to the state at the mean; use a method without derivatives (sr-ckf), or \
+                         start off that point",
+                    ),
+                    Quantity::Measurement => f.write_str("; `update_present` takes missing components"),
+                    _ => Ok(()),
+                }
             }
-            Fault::Backwards { to } => write!(f, "cannot predict back to t = {to}"),
+            Fault::Backwards { to } => write!(f, "cannot predict back to t = {}", Shown(to)),
             Fault::NotWholeSteps { gap, period } => {
-                write!(f, "a gap of {gap} is not a whole number of steps of {period}")
+                write!(f, "a gap of {} is not a whole number of steps of {}", Shown(gap), Shown(period))
             }
             Fault::Length { of, expected, found } => {
                 write!(f, "{of}: expected length {expected}, found {found}")
+            }
+            Fault::ControlsNotSet { controls } => {
+                write!(
+                    f,
+                    "the model has {controls} controls that were never set; give them to `set_controls` first"
+                )
+            }
+            Fault::StateDependentDiffusion => f.write_str(
+                "the diffusion depends on the state; time updates for such a model: moment-ode, euler-maruyama",
+            ),
+            Fault::SingularFactor { pivot } => write!(
+                f,
+                "the factor of the covariance is singular (pivot {}): a state is known exactly, and this time update \
+                 divides by the factor; time_update = ito-taylor does not",
+                pivot + 1
+            ),
+            Fault::Solver { why: Halt::StepLimit { limit }, smallest } => write!(
+                f,
+                "the solver has used its {limit} steps, the smallest of {smallest:e}; the drift is likely stiff: solver = \
+                 rodas4 is for that; or loosen rtol"
+            ),
+            Fault::Solver { why: Halt::StepTooSmall, smallest } => {
+                write!(f, "no step of at least {smallest:e} meets the tolerance; loosen rtol, or set atol")
             }
             Fault::Option(error) => error.fmt(f),
         }
@@ -169,7 +247,7 @@ pub struct StepError {
 
 impl fmt::Display for StepError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "step {}, t = {}: {}", self.step, self.time, self.fault)
+        write!(f, "step {}, t = {}: {}", self.step, Shown(self.time), self.fault)
     }
 }
 

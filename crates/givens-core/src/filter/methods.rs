@@ -1,12 +1,12 @@
 //! The methods by name: a type for each, its registry name in camel case, its options as fields.
 
+use super::error::Fault;
 use super::form::{Covariance, Form, SquareRoot};
+use super::predict::{OneTransition, TimeUpdate};
 use super::start::{Layout, Sizes};
 use super::update::Block;
 #[cfg(feature = "alloc")]
-use super::{Fault, Filter, Gaussian, Grow, Prior, StepError};
-#[cfg(feature = "alloc")]
-use crate::model::Transition;
+use super::{Filter, Gaussian, Grow, Prior, StepError};
 use crate::rule::{CentralDifference, Cubature3, Cubature5, GaussHermite, Rule, Taylor, Unscented};
 #[cfg(feature = "alloc")]
 use core::borrow::Borrow;
@@ -21,13 +21,13 @@ macro_rules! constants {
             /// Scalars of memory of a filter of these sizes.
             #[must_use]
             pub const fn memory(&self, sizes: Sizes) -> usize {
-                Layout::new(sizes, self.parts().shape_for(sizes.states), false).len
+                Layout::discrete(sizes, self.parts().shape_for(sizes.states), false).len
             }
 
             /// Scalars of memory of a filter of these sizes whose predictions leave what a smoother needs.
             #[must_use]
             pub const fn smoothing_memory(&self, sizes: Sizes) -> usize {
-                Layout::new(sizes, self.parts().shape_for(sizes.states), true).len
+                Layout::discrete(sizes, self.parts().shape_for(sizes.states), true).len
             }
 
             const fn parts(&self) -> $rule {
@@ -43,14 +43,18 @@ macro_rules! constants {
     };
 }
 
-/// A discrete-time filter as its parts: a rule, a form and a measurement update.
+/// A filter as its parts: a rule, a form, a time update and a measurement update.
 pub trait Method: Copy {
     /// How expectations are computed.
     type Rule: Rule;
     /// Covariance or square root.
     type Form: Form;
+    /// How the belief moves from one time to a later one.
+    type Time: Copy;
     /// The rule with the options chosen.
     fn rule(&self) -> Self::Rule;
+    /// The time update with the options chosen.
+    fn time_update(&self) -> Self::Time;
     /// The block of the measurement update; covariance form has only one.
     fn block(&self) -> Block {
         Block::Joint
@@ -61,15 +65,16 @@ pub trait Method: Copy {
     /// # Errors
     /// An option out of its range, or a prior of another length than the model's state.
     #[cfg(feature = "alloc")]
-    fn start<'m, M: Transition>(
+    fn start<'m, M>(
         &self,
         model: &'m M,
         t0: f64,
         prior: impl Borrow<Gaussian>,
-    ) -> Result<Filter<'m, Self, M, f64, alloc::vec::Vec<f64>>, StepError> {
-        let n = model.states();
-        self.rule().check(n).map_err(|error| StepError { fault: Fault::Option(error), time: t0, step: 0 })?;
-        let sizes = Sizes::of_model(model, self.rule().shape(n));
+    ) -> Result<Filter<'m, Self, M, f64, alloc::vec::Vec<f64>>, StepError>
+    where
+        Self: Over<M>,
+    {
+        let sizes = self.sizes(model).map_err(|fault| StepError { fault, time: t0, step: 0 })?;
         let mut memory = alloc::vec::Vec::new();
         memory.grow(Filter::<Self, M, f64, alloc::vec::Vec<f64>>::memory_len(self, sizes, false));
         let prior = prior.borrow();
@@ -77,6 +82,22 @@ pub trait Method: Copy {
         Filter::start_in(*self, model, sizes, false, prior, memory)
     }
 }
+
+/// A method for models of type `M`: a [`Transition`](crate::model::Transition) for discrete methods, an
+/// [`Sde`](crate::model::Sde) for continuous ones. Every method whose time update serves such models is one.
+pub trait Over<M>: Method<Time: TimeUpdate<M>> {
+    /// The model's sizes for the method's rule, without a sensor.
+    ///
+    /// # Errors
+    /// An option of the rule that is out of its range.
+    fn sizes(&self, model: &M) -> Result<Sizes, Fault> {
+        let n = self.time_update().states(model);
+        self.rule().check(n).map_err(Fault::Option)?;
+        Ok(self.time_update().sizes(model, self.rule().shape(n)))
+    }
+}
+
+impl<M, X: Method<Time: TimeUpdate<M>>> Over<M> for X {}
 
 macro_rules! methods {
     ($($(#[$doc:meta])* $cov:ident, $(#[$sr_doc:meta])* $sr:ident: $rule:ident { $($field:ident: $type:ty = $default:expr, $about:literal);* };)*) => {$(
@@ -91,6 +112,10 @@ macro_rules! methods {
         impl Method for $cov {
             type Rule = $rule;
             type Form = Covariance;
+            type Time = OneTransition;
+            fn time_update(&self) -> OneTransition {
+                OneTransition
+            }
             fn rule(&self) -> $rule {
                 self.parts()
             }
@@ -109,6 +134,10 @@ macro_rules! methods {
         impl Method for $sr {
             type Rule = $rule;
             type Form = SquareRoot;
+            type Time = OneTransition;
+            fn time_update(&self) -> OneTransition {
+                OneTransition
+            }
             fn rule(&self) -> $rule {
                 self.parts()
             }

@@ -1,5 +1,6 @@
 //! Filters: a rule, a time update and a measurement update, stepped through time.
 
+mod continuous;
 mod error;
 mod form;
 mod gaussian;
@@ -11,12 +12,16 @@ mod stepper;
 mod steps;
 pub mod update;
 
-pub use error::{Fault, Matrix, Quantity, StepError};
+pub use continuous::{
+    CdCkf, CdCkf1, CdCkf2, CdEkf, CdGhkf1, CdGhkf2, CdUkf, CdUkf1, Lskf, SrCdCkf, SrCdCkf1, SrCdCkf2,
+    SrCdEkf, SrCdGhkf1, SrCdGhkf2, SrCdUkf, SrCdUkf1,
+};
+pub use error::{Fault, Halt, Matrix, Quantity, StepError};
 pub use form::{Belief, Covariance, Form, SquareRoot};
 #[cfg(feature = "alloc")]
 pub use gaussian::Gaussian;
 pub use gaussian::{InvalidCovariance, factor_of_covariance};
-pub use methods::{Cdkf, Ckf, Ckf5, Ekf, Method, Qkf, SrCdkf, SrCkf, SrCkf5, SrEkf, SrQkf, SrUkf, Ukf};
+pub use methods::{Cdkf, Ckf, Ckf5, Ekf, Method, Over, Qkf, SrCdkf, SrCkf, SrCkf5, SrEkf, SrQkf, SrUkf, Ukf};
 pub use predict::Backward;
 pub use start::Sizes;
 pub use stepper::{Filter, Prior};

@@ -1,6 +1,6 @@
 //! The memory of a filter, of a length known before it starts.
 
-use super::predict::{accumulate_scratch, predict_scratch};
+use super::predict::{OneTransition, TimeUpdate, accumulate_scratch};
 use super::update::update_scratch;
 use crate::model::{Observation, Transition, linear_scratch, points_scratch};
 use crate::rule::Shape;
@@ -41,18 +41,9 @@ impl Sizes {
         }
     }
 
-    /// The sizes of a model alone, for a rule of that shape.
+    /// The sizes of a discrete model alone, for a rule of that shape.
     pub fn of_model<M: Transition>(model: &M, shape: Shape) -> Self {
-        let n = model.states();
-        Self {
-            states: n,
-            process_noise: model.noise().columns(n),
-            measures: 0,
-            measurement_noise: 0,
-            controls: model.controls(),
-            parameters: model.parameters().len(),
-            model: model.transition_scratch(shape.points),
-        }
+        OneTransition.sizes(model, shape)
     }
 
     /// Room for this sensor too.
@@ -81,7 +72,7 @@ impl Sizes {
 }
 
 /// Whether the length of a filter's memory is a number that a `usize` holds; no memory is longer anyway.
-const fn countable(sizes: Sizes, shape: Shape) -> bool {
+pub(super) const fn countable(sizes: Sizes, shape: Shape) -> bool {
     let rows = sizes.states.saturating_add(sizes.measures);
     let noises = sizes.process_noise.saturating_add(sizes.measurement_noise);
     let images = shape.points.saturating_add(shape.plus).saturating_add(shape.minus);
@@ -107,8 +98,16 @@ pub(crate) struct Layout {
 }
 
 impl Layout {
-    pub const fn new(sizes: Sizes, shape: Shape, smoothing: bool) -> Self {
-        let Sizes { states: n, process_noise: q, measures: d, measurement_noise: r, .. } = sizes;
+    /// That of a discrete method.
+    pub const fn discrete(sizes: Sizes, shape: Shape, smoothing: bool) -> Self {
+        let predict =
+            if countable(sizes, shape) { OneTransition::scratch(sizes, shape, smoothing) } else { 0 };
+        Self::new(sizes, shape, smoothing, predict)
+    }
+
+    /// That of any method, whose time update needs `predict` scalars of scratch.
+    pub const fn new(sizes: Sizes, shape: Shape, smoothing: bool, predict: usize) -> Self {
+        let Sizes { states: n, measures: d, measurement_noise: r, .. } = sizes;
         if !countable(sizes, shape) {
             return Self { sizes, shape, smoothing, len: usize::MAX };
         }
@@ -118,8 +117,7 @@ impl Layout {
         let innovation = 4 * d + d * d + 2;
         let back = if smoothing { 4 * n * n } else { 0 };
         let kept = shape.table + sizes.controls + sizes.parameters + belief + innovation + back;
-        let predict = predict_scratch(n, q, shape, sizes.model, smoothing)
-            + if smoothing { accumulate_scratch(n) } else { 0 };
+        let predict = predict + if smoothing { accumulate_scratch(n) } else { 0 };
         let update = update_scratch(n, d, r, shape, sizes.model);
         Self { sizes, shape, smoothing, len: kept + if predict > update { predict } else { update } }
     }

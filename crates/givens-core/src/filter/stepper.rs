@@ -3,11 +3,11 @@
 use super::error::{Fault, Quantity, StepError};
 use super::form::{Belief, Form};
 use super::memory::take;
-use super::methods::Method;
-use super::predict::Backward;
-use super::start::{Layout, Sizes};
+use super::methods::{Method, Over};
+use super::predict::{Backward, TimeUpdate};
+use super::start::{Layout, Sizes, countable};
 use super::update::Innovation;
-use crate::model::Transition;
+use crate::ode::Work;
 use crate::rule::{Rule, Shape};
 use crate::scalar::Real;
 use core::marker::PhantomData;
@@ -35,6 +35,9 @@ pub struct Filter<'m, X, M, T, B> {
     pub(super) step: usize,
     /// Components of the last measurement that were there.
     pub(super) present: usize,
+    /// Whether the controls are known: there are none, or they were set.
+    pub(super) controlled: bool,
+    pub(super) work: Work,
     pub(super) memory: B,
     scalar: PhantomData<T>,
 }
@@ -84,6 +87,14 @@ pub(super) fn parts<'a, T, F: Form>(layout: &Layout, mut memory: &'a mut [T]) ->
     }
 }
 
+/// The layout of a method's memory.
+pub(super) fn layout<X: Over<M>, M>(method: &X, sizes: Sizes, smoothing: bool) -> Layout {
+    let shape = method.rule().shape(sizes.states);
+    let predict =
+        if countable(sizes, shape) { method.time_update().scratch(sizes, shape, smoothing) } else { 0 };
+    Layout::new(sizes, shape, smoothing, predict)
+}
+
 /// The initial belief of a filter, in plain slices: the mean of length n, the lower-triangular root of the covariance,
 /// n × n, and the covariance itself (read in covariance form only).
 #[derive(Clone, Copy, Debug)]
@@ -98,7 +109,7 @@ pub struct Prior<'a> {
     pub cov: &'a [f64],
 }
 
-impl<'m, X: Method, M: Transition, T: Real, B: AsMut<[T]>> Filter<'m, X, M, T, B> {
+impl<'m, X: Over<M>, M, T: Real, B: AsMut<[T]>> Filter<'m, X, M, T, B> {
     /// Starts a filter in the caller's memory of at least [`memory_len`](Self::memory_len) scalars. With `smoothing`,
     /// every prediction also leaves what a smoother needs to come [`back`](Self::backward) over it.
     ///
@@ -116,12 +127,14 @@ impl<'m, X: Method, M: Transition, T: Real, B: AsMut<[T]>> Filter<'m, X, M, T, B
         let fail = |fault| StepError { fault, time: prior.time, step: 0 };
         method.rule().check(n).map_err(|error| fail(Fault::Option(error)))?;
         let shape = method.rule().shape(n);
-        let layout = Layout::new(sizes, shape, smoothing);
-        let (square, needs) = (n.saturating_mul(n), Sizes::of_model(model, shape));
+        let time_update = method.time_update();
+        time_update.check(model).map_err(fail)?;
+        let layout = layout::<X, M>(&method, sizes, smoothing);
+        let (square, needs) = (n.saturating_mul(n), time_update.sizes(model, shape));
         let cov = if X::Form::SQUARE_ROOT && prior.cov.is_empty() { 0 } else { square };
         let at_least = |of, needed: usize, given: usize| (of, needed, needed.min(given));
         for (of, expected, found) in [
-            ("the model's state", n, model.states()),
+            ("the model's state", n, time_update.states(model)),
             at_least("the state", 1, n),
             ("mean", n, prior.mean.len()),
             ("factor", square, prior.factor.len()),
@@ -144,34 +157,42 @@ impl<'m, X: Method, M: Transition, T: Real, B: AsMut<[T]>> Filter<'m, X, M, T, B
         let arrays = parts::<T, X::Form>(&layout, memory.as_mut());
         method.rule().tabulate(n, arrays.table);
         for (to, from) in [
-            (arrays.p, model.parameters()),
+            (arrays.p, time_update.parameters(model)),
             (arrays.belief.mean, prior.mean),
             (arrays.belief.factor, prior.factor),
             (arrays.belief.cov, prior.cov),
         ] {
             to.iter_mut().zip(from).for_each(|(to, &x)| *to = T::of(x));
         }
-        let (time, scalar) = (prior.time, PhantomData);
-        Ok(Self { method, model, layout, time, step: 0, present: 0, memory, scalar })
+        let (time, scalar, controlled) = (prior.time, PhantomData, sizes.controls == 0);
+        let work = Work::default();
+        Ok(Self { method, model, layout, time, step: 0, present: 0, controlled, work, memory, scalar })
     }
 
     /// Scalars of memory that a filter of these sizes needs; `memory` of a method's type is the same as a constant.
     #[must_use]
     pub fn memory_len(method: &X, sizes: Sizes, smoothing: bool) -> usize {
-        Layout::new(sizes, method.rule().shape(sizes.states), smoothing).len
+        layout::<X, M>(method, sizes, smoothing).len
     }
 
     pub(super) fn parts(&mut self) -> Parts<'_, T> {
         parts::<T, X::Form>(&self.layout, self.memory.as_mut())
     }
 
-    /// Sets the controls, which hold until they are set again.
+    /// Sets the controls, which hold until they are set again. A model that has some neither predicts nor is measured by
+    /// them before.
     ///
     /// # Errors
     /// A wrong number of them, or one that is not finite.
     pub fn set_controls(&mut self, u: &[f64]) -> Result<(), StepError> {
         let (time, step) = (self.time, self.step);
-        set(self.parts().u, u, "controls", Quantity::Control).map_err(|fault| StepError { fault, time, step })
+        set(self.parts().u, u, "controls", Quantity::Control).map_err(|fault| StepError {
+            fault,
+            time,
+            step,
+        })?;
+        self.controlled = true;
+        Ok(())
     }
 
     /// Sets the parameters, in place of the model's own.
@@ -210,6 +231,11 @@ impl<X: Method, M, T: Real, B: AsRef<[T]>> Filter<'_, X, M, T, B> {
     /// A failure at the present time.
     pub(crate) fn fail(&self, fault: Fault) -> StepError {
         StepError { fault, time: self.time, step: self.step }
+    }
+
+    /// What the solvers of its predictions have done so far: calls of the drift's moments, steps accepted and rejected.
+    pub fn work(&self) -> Work {
+        self.work
     }
 
     /// The time at which the belief holds.

@@ -2,12 +2,11 @@
 
 use super::Matrix;
 use super::error::{Fault, StepError};
-use super::methods::Method;
-use super::predict::{accumulate, lanes, predict};
-use super::start::Layout;
-use super::stepper::{Filter, Parts};
+use super::methods::Over;
+use super::predict::{Given, Plan, Stopped, TimeUpdate, accumulate, lanes};
+use super::stepper::{Filter, Parts, layout};
 use super::update::{InnovationMut, Measurement, update};
-use crate::model::{At, Observation, Transition};
+use crate::model::{At, Observation};
 use crate::scalar::Real;
 
 /// Memory that may or may not be made longer.
@@ -33,12 +32,12 @@ impl<T, const N: usize> Grow<T> for [T; N] {
     fn grow(&mut self, _: usize) {}
 }
 
-impl<X: Method, M: Transition, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
+impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
     /// Moves the belief to time `t`. A model with a fixed step takes as many as the gap holds; others take one of
     /// any length. At the present time nothing happens.
     ///
     /// # Errors
-    /// A time in the past, a gap that is not whole steps, a model that is not finite or whose noise is no covariance,
+    /// A time in the past, a gap that is not whole steps, controls that were never set, a model that is not finite or whose noise is no covariance,
     /// a predicted covariance that is not positive definite. The belief is then that of the last step that succeeded.
     pub fn predict(&mut self, t: f64) -> Result<(), StepError> {
         let (from, gap) = (self.time, t - self.time);
@@ -46,23 +45,19 @@ impl<X: Method, M: Transition, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
         if !(gap >= 0.0 && gap.is_finite()) {
             return refuse(Fault::Backwards { to: t });
         }
-        let (count, dt) = match self.model.period() {
-            Some(period) => {
-                let whole = Real::floor(gap / period + 0.5);
-                // late times are themselves rounded
-                let rounding = 4.0 * f64::EPSILON * Real::abs(t) / period;
-                if Real::abs(gap / period - whole) > 1e-6 + rounding {
-                    return refuse(Fault::NotWholeSteps { gap, period });
-                }
-                (whole as usize, period)
-            }
-            None => (usize::from(gap > 0.0), gap),
+        let Plan { count, dt } = match self.method.time_update().plan(self.model, from, t) {
+            Ok(plan) => plan,
+            Err(fault) => return refuse(fault),
         };
+        if count > 0 && !self.controlled {
+            return refuse(Fault::ControlsNotSet { controls: self.layout.sizes.controls });
+        }
         self.stand_still();
         for k in 0..count {
             self.one_step(from + k as f64 * dt, dt, k > 0)?;
         }
         self.time = t;
+        self.step += 1;
         Ok(())
     }
 
@@ -77,28 +72,31 @@ impl<X: Method, M: Transition, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
     }
 
     fn one_step(&mut self, t: f64, dt: f64, chained: bool) -> Result<(), StepError> {
-        let (rule, model, n) = (self.method.rule(), self.model, self.layout.sizes.states);
-        let smoothing = self.layout.smoothing;
-        let step = self.step;
-        let fail = |fault| StepError { fault, time: t + dt, step };
+        let (rule, time_update) = (self.method.rule(), self.method.time_update());
+        let (model, n) = (self.model, self.layout.sizes.states);
+        let (smoothing, step) = (self.layout.smoothing, self.step);
+        let mut work = self.work;
         let Parts { table, u, p, mut belief, mut total, mut later, scratch, .. } = self.parts();
-        let at = At { t: T::of(t), dt: T::of(dt), u, p };
-        if chained && smoothing {
-            let back = Some(&mut later);
-            predict::<_, _, _, X::Form>(&rule, table, model, &at, &mut belief, back, scratch)
-                .map_err(fail)?;
-            lanes(accumulate(n, &mut total, &later, scratch), Matrix::Conditional).map_err(fail)?;
-        } else {
-            let back = smoothing.then_some(&mut total);
-            predict::<_, _, _, X::Form>(&rule, table, model, &at, &mut belief, back, scratch)
-                .map_err(fail)?;
-        }
+        let given = Given { rule: &rule, table, model, at: At { t: T::of(t), dt: T::of(dt), u, p } };
+        let back = smoothing.then_some(if chained { &mut later } else { &mut total });
+        let done = time_update.step::<T, _, X::Form>(&given, &mut belief, back, &mut work, scratch);
+        let chain = match done {
+            Ok(_) if smoothing && chained => {
+                lanes(accumulate(n, &mut total, &later, scratch), Matrix::Conditional)
+            }
+            Ok(sick) => Ok(sick),
+            Err(Stopped { reached, fault }) => {
+                return Err(StepError { fault, time: reached.unwrap_or(t + dt), step });
+            }
+        };
+        chain.map_err(|fault| StepError { fault, time: t + dt, step })?;
+        self.work = work;
         self.time = t + dt;
-        self.step += 1;
         Ok(())
     }
 
-    /// Teaches the belief a whole measurement of `sensor` at the present time.
+    /// Teaches the belief a whole measurement of `sensor` at the present time; where components are missing,
+    /// [`update_present`](Self::update_present) takes the others.
     ///
     /// # Errors
     /// A measurement of the wrong length or that is not finite, a sensor model that is not finite or whose noise is no
@@ -145,6 +143,9 @@ impl<X: Method, M: Transition, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
                 return Err(fail(Fault::Length { of, expected, found }));
             }
         }
+        if sensor.controls() > 0 && !self.controlled {
+            return Err(fail(Fault::ControlsNotSet { controls: self.layout.sizes.controls }));
+        }
         self.make_room(sensor).map_err(fail)?;
         let (rule, block) = (self.method.rule(), self.method.block());
         let Parts {
@@ -180,7 +181,7 @@ impl<X: Method, M: Transition, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
         if self.layout.sizes.hold(&sizes) {
             return Ok(());
         }
-        let layout = Layout::new(sizes, self.layout.shape, self.layout.smoothing);
+        let layout = layout::<X, M>(&self.method, sizes, self.layout.smoothing);
         self.memory.grow(layout.len);
         let found = self.memory.as_ref().len();
         if found < layout.len {

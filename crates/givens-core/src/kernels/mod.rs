@@ -1,4 +1,4 @@
-//! Triangular matrices: what every filter and smoother is made of. Slices in, caller's memory, no model.
+//! Triangular matrices, what every filter and smoother is made of, and one general division. Slices in, caller's memory, no model.
 //!
 //! All matrices are stored row by row. A kernel never branches on one lane of a pack: it reports the lanes that
 //! it could not serve as [`Health`].
@@ -6,6 +6,7 @@
 mod cholesky;
 mod downdate;
 mod health;
+mod lu;
 mod product;
 mod rest;
 mod solve;
@@ -15,6 +16,7 @@ mod tria;
 pub use cholesky::{cholesky, cholesky_scaled};
 pub use downdate::downdate;
 pub use health::Health;
+pub use lu::{lu, lu_order, lu_solve, lu_solve_transposed};
 pub use product::{add_outer, copy_lower, product_lower, square};
 pub use solve::{divide_lower, divide_lower_transposed, solve_lower};
 pub use sweep::sweep;

@@ -1,15 +1,21 @@
 //! Models: what moves the state and what measures it, written once over [`Real`](crate::scalar::Real).
 
+mod expanded;
+mod flow;
 mod map;
 mod observation;
+mod sde;
 mod stack;
 mod transition;
 pub mod zoo;
 
+pub use expanded::Expanded;
+pub use flow::Flow;
 pub use map::{
     Linear, Map, Moving, Sensed, linear_by_duals, linear_scratch, points_one_by_one, points_scratch,
 };
 pub use observation::Observation;
+pub use sde::{Sde, Varies};
 pub use transition::Transition;
 
 /// Where a model is evaluated: time, step, controls and parameters, all of the scalar's type, so that they

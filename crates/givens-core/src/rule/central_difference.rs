@@ -9,7 +9,7 @@ use crate::scalar::Real;
 /// It is no weighted set of points: its covariance never subtracts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CentralDifference {
-    /// The step η ≥ 1, in standard deviations; √3 suits a Gaussian.
+    /// The step η, in standard deviations, from 1 to 10⁹; √3 suits a Gaussian.
     pub eta: f64,
 }
 
@@ -29,10 +29,11 @@ impl CentralDifference {
 
 impl Rule for CentralDifference {
     fn check(&self, _: usize) -> Result<(), RuleError> {
-        if self.eta >= 1.0 && self.eta.is_finite() {
+        // further points overflow
+        if (1.0..=1e9).contains(&self.eta) {
             return Ok(());
         }
-        Err(RuleError { option: "eta", value: self.eta, must: "must be at least 1" })
+        Err(RuleError { option: "eta", value: self.eta, must: "must be at least 1, and at most 1e9" })
     }
 
     fn shape(&self, n: usize) -> Shape {

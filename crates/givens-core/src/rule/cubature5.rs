@@ -30,8 +30,9 @@ impl Cubature5 {
 impl PointRule for Cubature5 {
     fn check(&self, n: usize) -> Result<(), RuleError> {
         if n > TABLE_STATES {
-            let must = "a rule with a table of nodes serves at most 64 states; cubature3 serves any number";
-            return Err(RuleError { option: "rule", value: 5.0, must });
+            let must = "cubature5 (ckf5) holds a table of 2 n^2 + 1 points, for at most 64 states; cubature3 (ckf) serves any \
+                        number";
+            return Err(RuleError { option: "rule", value: n as f64, must });
         }
         Ok(())
     }

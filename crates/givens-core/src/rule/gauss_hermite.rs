@@ -47,7 +47,7 @@ impl PointRule for GaussHermite {
         }
         if n > TABLE_STATES || self.grid(n) > GRID {
             let must = "the grid of points^n nodes (n: number of states) must not exceed 2^21; use fewer points, or \
-                        cubature5";
+                        a cubature rule";
             return Err(RuleError { option: "points", value, must });
         }
         Ok(())

@@ -23,7 +23,7 @@ pub use taylor::Taylor;
 pub use unscented::Unscented;
 
 use crate::model::{At, Map};
-use crate::scalar::{Mask, Real};
+use crate::scalar::{Mask, Real, Shown};
 
 /// The sizes that a rule needs for a state of length n.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -73,6 +73,9 @@ pub trait Rule: Copy {
     /// The sizes for a state of length `n`.
     fn shape(&self, n: usize) -> Shape;
 
+    /// D is J S with J = ∂g/∂x at the mean, whatever the root.
+    const FIRST_ORDER: bool = false;
+
     /// The error of a row of [D E], in Euclidean norm, that a unit error in every value of g makes.
     fn rounding(&self, n: usize) -> f64 {
         let _ = n;
@@ -105,9 +108,9 @@ pub const fn spread_scratch(shape: Shape, n: usize, d: usize, map: usize) -> usi
 /// An option of a rule that is out of its range.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RuleError {
-    /// The option's registry name.
+    /// The option's registry name; `rule` if it is the rule itself that cannot serve.
     pub option: &'static str,
-    /// Its value.
+    /// Its value; the number of states for `rule`.
     pub value: f64,
     /// What it must be.
     pub must: &'static str,
@@ -115,7 +118,10 @@ pub struct RuleError {
 
 impl core::fmt::Display for RuleError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        write!(f, "{} = {}: {}", self.option, self.value, self.must)
+        if self.option == "rule" {
+            return write!(f, "{} states: {}", self.value, self.must);
+        }
+        write!(f, "{} = {}: {}", self.option, Shown(self.value), self.must)
     }
 }
 

@@ -17,6 +17,8 @@ impl Taylor {
 }
 
 impl Rule for Taylor {
+    const FIRST_ORDER: bool = true;
+
     fn check(&self, _: usize) -> Result<(), RuleError> {
         Ok(())
     }

@@ -60,14 +60,19 @@ impl PointRule for Unscented {
         if !(self.alpha > 0.0 && self.alpha.is_finite()) {
             return Err(RuleError { option: "alpha", value: self.alpha, must: "must be above zero" });
         }
-        let radius2 = self.radius2(n);
-        if !(radius2 > 0.0 && radius2.is_finite()) {
-            let value = self.kappa.unwrap_or(f64::NAN);
-            return Err(RuleError {
-                option: "kappa",
-                value,
-                must: "n + kappa must be above zero (n: number of states)",
-            });
+        let kappa = self.kappa.unwrap_or(3.0 - n as f64);
+        let beside = n as f64 + kappa;
+        if !(beside > 0.0 && beside.is_finite()) {
+            let must = "n + kappa must be above zero (n: number of states)";
+            return Err(RuleError { option: "kappa", value: kappa, must });
+        }
+        // nearer points differ by rounding only, further ones overflow
+        if !(1e-18..=1e18).contains(&self.radius2(n)) {
+            let must = "the points, sqrt(alpha^2 (n + kappa)) standard deviations from the mean, must stand between 1e-9 \
+                        and 1e9 away (n: number of states)";
+            let far = !(1e-18..=1e18).contains(&beside);
+            let (option, value) = if far { ("kappa", kappa) } else { ("alpha", self.alpha) };
+            return Err(RuleError { option, value, must });
         }
         Ok(())
     }

@@ -2,8 +2,10 @@
 
 mod dual;
 mod float;
+mod shown;
 
 pub use dual::{Dual2, as_duals};
+pub use shown::Shown;
 
 use core::fmt::Debug;
 use core::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, MulAssign, Neg, Not, Sub, SubAssign};

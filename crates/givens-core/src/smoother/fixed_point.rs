@@ -4,9 +4,8 @@ use super::back::symmetrise;
 use super::history::for_smoothing;
 use crate::filter::memory::{put_columns, take};
 use crate::filter::predict::multiply;
-use crate::filter::{Fault, Filter, Form, Grow, Method, StepError};
+use crate::filter::{Fault, Filter, Form, Grow, Over, StepError};
 use crate::kernels::{add_outer, copy_lower, square, tria};
-use crate::model::Transition;
 use crate::scalar::Real;
 use core::marker::PhantomData;
 
@@ -61,7 +60,7 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> FixedPoint<T, B> {
     ///
     /// # Errors
     /// It was not, or too little memory.
-    pub fn begin<X: Method, M: Transition, C: Grow<T>>(
+    pub fn begin<X: Over<M>, M, C: Grow<T>>(
         filter: &Filter<'_, X, M, T, C>,
         mut memory: B,
     ) -> Result<Self, StepError> {
@@ -82,10 +81,7 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> FixedPoint<T, B> {
     }
 
     /// Whether the filter goes with the one that this was begun with.
-    fn fits<X: Method, M: Transition, C: Grow<T>>(
-        &self,
-        filter: &Filter<'_, X, M, T, C>,
-    ) -> Result<(), StepError> {
+    fn fits<X: Over<M>, M, C: Grow<T>>(&self, filter: &Filter<'_, X, M, T, C>) -> Result<(), StepError> {
         let (n, found) = (self.states, filter.mean().len());
         if n != found {
             return Err(filter.fail(Fault::Length { of: "the filter's state", expected: n, found }));
@@ -102,7 +98,7 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> FixedPoint<T, B> {
     ///
     /// # Errors
     /// Those of [`Filter::predict`], or a filter that was not started for smoothing or is of another length or form.
-    pub fn predict<X: Method, M: Transition, C: Grow<T>>(
+    pub fn predict<X: Over<M>, M, C: Grow<T>>(
         &mut self,
         filter: &mut Filter<'_, X, M, T, C>,
         t: f64,
@@ -131,7 +127,7 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> FixedPoint<T, B> {
     ///
     /// # Errors
     /// A filter of another length or form than the one that this was begun with.
-    pub fn update<X: Method, M: Transition, C: Grow<T>>(
+    pub fn update<X: Over<M>, M, C: Grow<T>>(
         &mut self,
         filter: &Filter<'_, X, M, T, C>,
     ) -> Result<(), StepError> {

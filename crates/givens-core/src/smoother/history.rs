@@ -2,8 +2,7 @@
 
 use super::back::{Passage, back_scratch, mean_back, step_back};
 use crate::filter::memory::take;
-use crate::filter::{Belief, Covariance, Fault, Filter, Form, Grow, Method, Prior, SquareRoot, StepError};
-use crate::model::Transition;
+use crate::filter::{Belief, Covariance, Fault, Filter, Form, Grow, Over, Prior, SquareRoot, StepError};
 use crate::scalar::Real;
 use core::marker::PhantomData;
 
@@ -73,10 +72,7 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
     }
 
     /// Whether the filter goes with this history.
-    fn fits<X: Method, M: Transition, C: Grow<T>>(
-        &mut self,
-        filter: &Filter<'_, X, M, T, C>,
-    ) -> Result<(), StepError> {
+    fn fits<X: Over<M>, M, C: Grow<T>>(&mut self, filter: &Filter<'_, X, M, T, C>) -> Result<(), StepError> {
         let room = self.room::<X::Form>(filter.mean().len());
         room.and_then(|()| for_smoothing(filter)).map_err(|fault| filter.fail(fault))
     }
@@ -85,7 +81,7 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
     ///
     /// # Errors
     /// Those of [`Filter::predict`], or a filter that does not go with this history; nothing is recorded then.
-    pub fn predict<X: Method, M: Transition, C: Grow<T>>(
+    pub fn predict<X: Over<M>, M, C: Grow<T>>(
         &mut self,
         filter: &mut Filter<'_, X, M, T, C>,
         t: f64,
@@ -130,7 +126,7 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
     ///
     /// # Errors
     /// A smoothed covariance that is not positive semidefinite, in covariance form; the time is the filter's.
-    pub fn smooth<X: Method, M: Transition, C: Grow<T>>(
+    pub fn smooth<X: Over<M>, M, C: Grow<T>>(
         &mut self,
         filter: &Filter<'_, X, M, T, C>,
         steps: usize,
@@ -241,7 +237,7 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
 }
 
 /// A filter must leave what its smoother needs.
-pub(super) fn for_smoothing<X: Method, M: Transition, T: Real, C: Grow<T>>(
+pub(super) fn for_smoothing<X: Over<M>, M, T: Real, C: Grow<T>>(
     filter: &Filter<'_, X, M, T, C>,
 ) -> Result<(), Fault> {
     let (expected, found) = (filter.factor().len(), filter.backward().0.len());

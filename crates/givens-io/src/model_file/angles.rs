@@ -2,6 +2,8 @@
 
 use core::f64::consts::TAU;
 
+use givens_core::scalar::Shown;
+
 use super::context::Context;
 use super::document::Kind;
 use super::section::{Named, Section, texts};
@@ -26,7 +28,7 @@ pub(super) fn periods(
             let positive = period.is_none_or(|period| period > 0.0);
             if !positive {
                 let message =
-                    format!("{what} is {}, but a period is greater than zero", period.unwrap_or(0.0));
+                    format!("{what} is {}, but a period is greater than zero", Shown(period.unwrap_or(0.0)));
                 context.findings.wrong_help(
                     &angle.value.span,
                     message,

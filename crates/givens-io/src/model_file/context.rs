@@ -2,6 +2,7 @@
 
 use core::ops::Range;
 
+use givens_core::scalar::Shown;
 use givens_expr::{Graph, Input, Node, Scope};
 
 use super::document::Value;
@@ -31,6 +32,13 @@ impl Context<'_> {
     /// Reads a number or an expression; what is wrong is found so.
     pub fn expression(&mut self, scope: &Scope, value: &Value, what: &str) -> Option<Node> {
         expression(self.findings, &mut self.graph, scope, value, what)
+    }
+
+    /// Reads an expression that is finite if it is the same at every time.
+    pub fn finite_expression(&mut self, scope: &Scope, value: &Value, what: &str) -> Option<Node> {
+        let node = self.expression(scope, value, what)?;
+        let known = self.known(node);
+        known.is_none_or(|number| self.finite(number, &value.span, what)).then_some(node)
     }
 
     /// Reads a number, or an expression in parameters, and gives its value.
@@ -84,7 +92,8 @@ impl Context<'_> {
             let node = self.expression(scope, value, &what);
             let good = match node.and_then(|node| self.known(node)) {
                 Some(number) if number < 0.0 => {
-                    let message = format!("{what} is {number}, but a standard deviation is not negative");
+                    let message =
+                        format!("{what} is {}, but a standard deviation is not negative", Shown(number));
                     self.findings.wrong_help(
                         &value.span,
                         message,

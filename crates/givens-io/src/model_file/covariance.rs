@@ -3,6 +3,7 @@
 use core::ops::Range;
 
 use givens_core::kernels::cholesky;
+use givens_core::scalar::Shown;
 use givens_expr::{Node, Scope};
 
 use super::context::Context;
@@ -136,14 +137,16 @@ impl Check<'_, '_> {
                         .all(|node| self.context.known(node).is_some());
                     let moment = if fixed { "" } else { moment };
                     let message = format!(
-                        "{} is not symmetric: row {}, column {} (`{}`, `{}`) is {below}, but row {}, column {} is {above}{moment}",
+                        "{} is not symmetric: row {}, column {} (`{}`, `{}`) is {}, but row {}, column {} is {}{moment}",
                         self.what,
                         i + 1,
                         j + 1,
                         self.name(i),
                         self.name(j),
+                        Shown(below),
                         j + 1,
-                        i + 1
+                        i + 1,
+                        Shown(above)
                     );
                     self.context.findings.wrong_help(
                         &self.span(i, j),

@@ -67,14 +67,39 @@ pub(super) fn read(findings: &Findings) -> Option<Vec<Entry>> {
         return Some(entries(table.into_inner(), source));
     }
     // One slip makes many errors after it.
-    let spans = errors.iter().map(|error| error.span().unwrap_or(source.text.len()..source.text.len()));
+    let spans = errors.iter().map(|error| error.span().unwrap_or_else(|| deepest(source)));
     if let Some((span, error)) = spans.zip(&errors).min_by_key(|(span, _)| span.start) {
+        if is_table(source) {
+            let message = "this is a table, not a model file";
+            findings.wrong_help(&(0..source.line(0).len()), message, "the model comes first, then the data");
+            return None;
+        }
         let found = source.text.get(span.clone()).and_then(|found| found.lines().next()).unwrap_or("").trim();
         let found = if found.is_empty() { String::new() } else { format!(" at `{found}`") };
         let help = "strings stand in quotes, lists in [ ], tables in { }, with commas between their items";
         findings.wrong_help(&span, format!("not valid TOML{found}: {}", error.message()), help);
     }
     None
+}
+
+/// The line that opens the most tables and lists: where a document nests too deeply to be read, as far as is known.
+fn deepest(source: &Source) -> Range<usize> {
+    let opens = |line: &str| line.bytes().filter(|byte| b".[{".contains(byte)).count();
+    let mut at = 0;
+    let lines = source.text.split_inclusive('\n');
+    let spans: Vec<_> = lines
+        .map(|line| {
+            at += line.len();
+            (opens(line), at - line.len()..at - line.len() + line.trim_end().len())
+        })
+        .collect();
+    spans.into_iter().rev().max_by_key(|(opens, _)| *opens).map_or(0..0, |(_, span)| span)
+}
+
+/// Whether the text, which is no TOML, begins as tables do: with names and commas between.
+fn is_table(source: &Source) -> bool {
+    let first = source.line(0);
+    first.contains(',') && !first.contains(['=', '[', '#'])
 }
 
 fn entries(table: DeTable, source: &Source) -> Vec<Entry> {

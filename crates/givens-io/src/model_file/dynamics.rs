@@ -1,5 +1,6 @@
 //! `[dynamics]`: how the state moves.
 
+use givens_core::scalar::Shown;
 use givens_expr::{ModelTransition, Node, TransitionParts};
 
 use super::context::Context;
@@ -16,7 +17,7 @@ pub(super) fn step(context: &mut Context, section: &Section) -> Option<f64> {
     let scope = context.scope(Role::Fixed);
     let step = context.number(&scope, &entry.value, "`step`")?;
     if step <= 0.0 {
-        let message = format!("`step` is {step}, but a step is longer than zero");
+        let message = format!("`step` is {}, but a step is longer than zero", Shown(step));
         context.findings.wrong_help(&entry.value.span, message, "write its length in seconds");
         return None;
     }
@@ -75,7 +76,7 @@ fn transition(context: &mut Context, section: &Section, states: &[String]) -> Op
     let scope = context.scope(Role::Transition);
     let mut nodes = Vec::with_capacity(values.len());
     for (value, name) in values.into_iter().zip(states) {
-        nodes.push(context.expression(&scope, value, &format!("the transition of `{name}`")));
+        nodes.push(context.finite_expression(&scope, value, &format!("the transition of `{name}`")));
     }
     nodes.into_iter().collect()
 }

@@ -32,6 +32,11 @@ impl Use {
     }
 }
 
+/// Whether a character breaks a line, or steers a terminal.
+pub(super) fn breaks(c: char) -> bool {
+    c.is_control() || matches!(c, '\u{2028}' | '\u{2029}')
+}
+
 /// Why a name may not be given, if it may not: a message and the remedy.
 fn refused(name: &str, used: Use) -> Option<(String, String)> {
     let noun = used.noun();
@@ -67,9 +72,9 @@ fn refused(name: &str, used: Use) -> Option<(String, String)> {
     }
     if used == Use::Measure {
         // A measure is a column first; only `start` names it in expressions.
-        let odd = name.trim() != name || name.chars().any(char::is_control);
+        let odd = name.trim() != name || name.chars().any(breaks);
         return odd.then(|| {
-            (format!("the measure {name:?} begins or ends with a space, or has a line end"), another())
+            (format!("the measure {name:?} begins or ends with a space, or has a line end or a control character"), another())
         });
     }
     (!is_name(name)).then(|| {

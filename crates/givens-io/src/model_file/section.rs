@@ -136,7 +136,15 @@ impl Named<'_> {
         if number > unknown {
             let plural = if number == 1 { "" } else { "s" };
             let names = list(missing().map(String::as_str));
-            findings.wrong(span, format!("{what} leaves out the {}{plural} {names}", self.noun));
+            let first = missing().next().map_or("", String::as_str);
+            let help = match what {
+                "`transition`" => {
+                    format!("a state that stays as it is has the transition {first} = \"{first}\"")
+                }
+                _ => format!("add {first} = …"),
+            };
+            let message = format!("{what} leaves out the {}{plural} {names}", self.noun);
+            findings.wrong_help(span, message, help);
         }
         found.into_iter().collect()
     }

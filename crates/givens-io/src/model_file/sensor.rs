@@ -8,7 +8,7 @@ use super::angles;
 use super::context::{Context, MANY};
 use super::covariance::covariance;
 use super::document::{Entry, Kind, Value};
-use super::names::Names;
+use super::names::{Names, breaks};
 use super::section::{Named, Section, text};
 use super::vocabulary::Role;
 use crate::findings::Findings;
@@ -98,6 +98,13 @@ fn sketch<'a>(findings: &Findings, item: &'a Value, names: &Names) -> Option<Ske
         if name.is_empty() || name.trim() != name {
             let help = "write a name without spaces around it";
             findings.wrong_help(&entry.value.span, "a sensor's name is empty or has spaces around it", help);
+        } else if name.chars().any(breaks) {
+            let help = "write a name of letters, digits and signs, on one line";
+            findings.wrong_help(
+                &entry.value.span,
+                "a sensor's name has a line end or a control character",
+                help,
+            );
         }
         Some(name.to_string())
     });
@@ -182,7 +189,7 @@ fn expressions(context: &mut Context, sketch: &Sketch) -> Option<Vec<Node>> {
     let scope = context.scope(Role::Measure);
     let mut nodes = Vec::with_capacity(sketch.columns.len());
     for (value, name) in sketch.expressions.iter().zip(&sketch.columns) {
-        nodes.push(context.expression(&scope, value, &format!("the measure `{name}`")));
+        nodes.push(context.finite_expression(&scope, value, &format!("the measure `{name}`")));
     }
     nodes.into_iter().collect()
 }

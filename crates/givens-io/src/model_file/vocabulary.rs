@@ -147,10 +147,15 @@ pub(super) fn expression_by(
         Kind::Text(text, _) => match read(graph, scope, text) {
             Ok(node) => Some(node),
             Err(error) => {
+                let name = text.get(error.span.clone()).unwrap_or("");
+                let help = error.help.map(|help| {
+                    let listed = help.starts_with("known here");
+                    if listed { help + &or_control(scope, name) } else { help }
+                });
                 findings.wrong_maybe(
                     &value.within(&error.span),
                     format!("{} in {what}", error.message),
-                    error.help,
+                    help,
                 );
                 None
             }
@@ -161,6 +166,12 @@ pub(super) fn expression_by(
             None
         }
     }
+}
+
+/// What else an unknown name may have been meant for, where controls may stand.
+fn or_control(scope: &Scope, name: &str) -> String {
+    let may = matches!(scope.get("t"), Some(Meaning::Is(_)));
+    if may && name.len() <= 40 { format!(" (a control would be `u_{name}`)") } else { String::new() }
 }
 
 fn is_broken(graph: &Graph, scope: &Scope, name: &str) -> bool {

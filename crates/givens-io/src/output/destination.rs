@@ -4,7 +4,7 @@ use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-/// A file in the making: `PATH.partial` until it is finished, then `PATH`.
+/// A file in the making: `PATH.partial` from its first byte until it is finished, then `PATH`.
 #[derive(Debug)]
 pub struct Destination {
     path: PathBuf,
@@ -12,6 +12,7 @@ pub struct Destination {
     target: PathBuf,
     /// Where it is written before; none for a device.
     partial: Option<PathBuf>,
+    /// Open from the first byte on; a device from the beginning.
     file: Option<BufWriter<File>>,
 }
 
@@ -42,34 +43,45 @@ impl core::error::Error for DestinationError {
 }
 
 impl Destination {
-    /// Opens `PATH.partial`. A device, such as a terminal, is written as it is; behind a link, the file it leads to.
+    /// Makes sure that `PATH.partial` can be written, and leaves it away until there is something to write. A device, such
+    /// as a terminal, is written as it is; behind a link, the file it leads to.
     ///
     /// # Errors
     /// A path that cannot be written, or that is a folder.
     pub fn create(path: impl AsRef<Path>) -> Result<Self, DestinationError> {
         let path = path.as_ref().to_owned();
         match Self::open(&path) {
-            Ok((target, partial, file)) => {
-                Ok(Self { path, target, partial, file: Some(BufWriter::new(file)) })
-            }
+            Ok((target, partial, file)) => Ok(Self { path, target, partial, file: file.map(BufWriter::new) }),
             Err(source) => Err(DestinationError { path, source }),
         }
     }
 
-    fn open(path: &Path) -> io::Result<(PathBuf, Option<PathBuf>, File)> {
+    fn open(path: &Path) -> io::Result<(PathBuf, Option<PathBuf>, Option<File>)> {
         let found = path.metadata().ok();
         if found.as_ref().is_some_and(fs::Metadata::is_dir) {
             return Err(io::Error::new(io::ErrorKind::IsADirectory, "it is a folder"));
         }
         if found.as_ref().is_some_and(|found| !found.is_file()) {
-            return Ok((path.to_owned(), None, OpenOptions::new().write(true).open(path)?));
+            return Ok((path.to_owned(), None, Some(OpenOptions::new().write(true).open(path)?)));
         }
         let target = if found.is_some() { path.canonicalize()? } else { path.to_owned() };
         let mut partial = target.clone().into_os_string();
         partial.push(".partial");
         let partial = PathBuf::from(partial);
-        let file = File::create(&partial)?;
-        Ok((target, Some(partial), file))
+        drop(File::create(&partial)?);
+        // a run that is killed before it writes leaves nothing
+        fs::remove_file(&partial)?;
+        Ok((target, Some(partial), None))
+    }
+
+    /// The file, opened when it is first asked for.
+    fn opened(&mut self) -> io::Result<&mut BufWriter<File>> {
+        let file = match (self.file.take(), &self.partial) {
+            (Some(file), _) => file,
+            (None, Some(partial)) => BufWriter::new(File::create(partial)?),
+            (None, None) => return Err(io::Error::from(io::ErrorKind::NotFound)),
+        };
+        Ok(self.file.insert(file))
     }
 
     /// The file as the user named it.
@@ -82,8 +94,9 @@ impl Destination {
     /// # Errors
     /// A disk that is full, or a file that cannot be replaced; `PATH.partial` is left.
     pub fn finish(mut self) -> Result<(), DestinationError> {
-        let Some(file) = self.file.take() else { return Ok(()) };
-        let done = file.into_inner().map_err(io::IntoInnerError::into_error);
+        let done = self.opened().map(|_| ());
+        let file = done.and_then(|()| self.file.take().ok_or(io::ErrorKind::NotFound.into()));
+        let done = file.and_then(|file| file.into_inner().map_err(io::IntoInnerError::into_error));
         let done = done.and_then(|file| match &self.partial {
             Some(partial) => file.sync_all().and_then(|()| fs::rename(partial, &self.target)),
             None => Ok(()),
@@ -94,7 +107,7 @@ impl Destination {
 
 impl Write for Destination {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.file.as_mut().map_or(Ok(0), |file| file.write(bytes))
+        self.opened()?.write(bytes)
     }
     fn flush(&mut self) -> io::Result<()> {
         self.file.as_mut().map_or(Ok(()), Write::flush)
@@ -107,5 +120,32 @@ impl Drop for Destination {
         if let (Some(_), Some(partial)) = (self.file.take(), &self.partial) {
             let _ = fs::remove_file(partial);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Destination;
+    use std::fs;
+    use std::io::Write;
+
+    #[test]
+    fn nothing_lies_there_before_the_first_byte_nor_under_the_name_before_the_last() {
+        let folder = std::env::temp_dir().join(format!("givens-destination-{}", std::process::id()));
+        fs::create_dir_all(&folder).unwrap();
+        let (path, partial) = (folder.join("out.csv"), folder.join("out.csv.partial"));
+        let mut file = Destination::create(&path).unwrap();
+        assert!(!path.exists() && !partial.exists());
+        file.write_all(b"x").unwrap();
+        assert!(!path.exists() && partial.exists());
+        file.finish().unwrap();
+        assert!(path.exists() && !partial.exists());
+        // an output without a byte is a file all the same, and one that is given up leaves what was there
+        Destination::create(folder.join("empty.csv")).unwrap().finish().unwrap();
+        assert_eq!(fs::read(folder.join("empty.csv")).unwrap(), b"");
+        Destination::create(&path).unwrap().write_all(b"other").unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"x");
+        assert!(!partial.exists());
+        fs::remove_dir_all(&folder).unwrap();
     }
 }

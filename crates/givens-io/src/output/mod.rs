@@ -6,6 +6,7 @@ mod jsonl;
 mod simulated;
 
 use givens::Estimates;
+use givens::scalar::Shown;
 use std::io::{self, Write};
 
 pub use destination::{Destination, DestinationError};
@@ -48,8 +49,7 @@ struct Line<'a> {
 
 /// A number that reads back exactly, with an exponent where digits alone would be long.
 fn digits(x: f64) -> String {
-    let plain = x == 0.0 || (1e-5..1e16).contains(&x.abs());
-    if plain { x.to_string() } else { format!("{x:e}") }
+    Shown(x).to_string()
 }
 
 /// What the writer under a table said; in the error of the table its kind would be lost.

@@ -19,9 +19,10 @@ pub(super) fn number(findings: &Findings, row: &Fields, column: usize) -> Cell {
     }
     let (message, help) = match text.parse::<f64>() {
         Ok(number) if number.is_finite() => return Cell::Number(number),
-        Ok(_) if text.bytes().any(|byte| byte.is_ascii_digit()) => {
-            (format!("{text} in {} is too large for a number", row.column(column)), "check the units")
-        }
+        Ok(_) if text.bytes().any(|byte| byte.is_ascii_digit()) => (
+            format!("{} in {} is too large for a number", short(text), row.column(column)),
+            "check the units",
+        ),
         Ok(_) => (
             format!("`{}` in {} is not a finite number", short(text), row.column(column)),
             "leave the cell empty where there is no value",

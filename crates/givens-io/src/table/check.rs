@@ -1,9 +1,11 @@
 //! The order of rows in time.
 
 use givens_core::model::Transition;
+use givens_core::scalar::Shown;
 
+use super::cell::short;
 use super::row::Raw;
-use super::time::{Calendar, Time};
+use super::time::{Calendar, Time, differ, time_text};
 use super::{Row, Track};
 use crate::findings::Findings;
 use crate::model_file::Model;
@@ -26,7 +28,7 @@ pub(super) fn track(
     let starts: Vec<usize> = rows.iter().map(|raw| raw.start).collect();
     let rows: Vec<Row> = rows.into_iter().map(|raw| on_axis(raw, origin)).collect();
     let start = start.unwrap_or_else(|| rows.first().map_or(0.0, |row| row.time));
-    let check = Check { findings, model, start, column, rows: &rows, starts: &starts };
+    let check = Check { findings, model, start, origin, column, rows: &rows, starts: &starts };
     check.begin();
     for k in 1..rows.len() {
         if !findings.room() {
@@ -70,6 +72,7 @@ struct Check<'a> {
     findings: &'a Findings<'a>,
     model: &'a Model,
     start: f64,
+    origin: Option<Calendar>,
     column: usize,
     rows: &'a [Row],
     starts: &'a [usize],
@@ -88,31 +91,32 @@ impl Check<'_> {
         if row.time < self.start {
             let message = format!(
                 "the row at {} lies before the initial belief, which holds at {}",
-                row.time_text, self.start
+                short(&row.time_text),
+                time_text(self.origin, self.start)
             );
-            let message = if self.model.epoch.is_some() || row.time_text.parse::<f64>().is_ok() {
-                message
-            } else {
-                format!("the first row lies before the initial belief, which holds {} s after it", self.start)
-            };
             self.wrong(0, message, "set `time` in [state] to the first row's or earlier, or leave it out");
             return;
         }
-        let from = format!("the initial belief at {}", self.start);
+        let from = format!("the initial belief at {}", time_text(self.origin, self.start));
         self.steps(0, row.time - self.start, self.start, &from);
     }
 
     /// Row `k` against the one before.
     fn follow(&self, k: usize) {
         let (Some(before), Some(row)) = (self.rows.get(k - 1), self.rows.get(k)) else { return };
-        let there = format!("the row at {} (line {})", before.time_text, before.line);
+        let there = format!("the row at {} (line {})", short(&before.time_text), before.line);
         if row.time < before.time {
-            let message = format!("the row at {} stands after {there}", row.time_text);
+            let message = format!("the row at {} stands after {there}", short(&row.time_text));
             self.wrong(k, message, "sort the rows of each track by time");
         } else if row.time > before.time {
             self.steps(k, row.time - before.time, before.time, &there);
+        } else if differ(&row.time_text, &before.time_text) {
+            let (here, line) = (short(&row.time_text), before.line);
+            let message =
+                format!("the time {here} cannot be told from that of line {line}, in seconds to 16 digits");
+            self.wrong(k, message, "count the times from an instant near the data");
         } else if let Some(twin) = self.twin(k, row) {
-            let message = format!("two rows at {}: this one and line {}", row.time_text, twin.line);
+            let message = format!("two rows at {}: this one and line {}", short(&row.time_text), twin.line);
             self.wrong(k, message, "write them as one row, or name a different `sensor` in each");
         }
     }
@@ -128,17 +132,30 @@ impl Check<'_> {
         let Some(step) = self.model.transition.period() else { return };
         let Some(row) = self.rows.get(k) else { return };
         let steps = gap / step;
+        let here = short(&row.time_text);
         // Times that are large against the step bring their own rounding.
         let rounding = 4.0 * f64::EPSILON * from.abs().max(row.time.abs()) / step;
         if steps > MANY {
-            let message = format!("from {there} to {} are {steps:.3e} steps of {step}", row.time_text);
+            let message = format!("from {there} to {here} are {steps:.3e} steps of {}", Shown(step));
             self.wrong(k, message, "`step` and the times are in the same unit");
         } else if (steps - steps.round()).abs() > WHOLE.max(rounding) {
             let message = format!(
-                "from {there} to {} (line {}) are {steps} steps of {step}, not a whole number",
-                row.time_text, row.line
+                "from {there} to {here} (line {}) are {} steps of {}, not a whole number",
+                row.line,
+                fraction(steps),
+                Shown(step)
             );
             self.wrong(k, message, "leave `step` out of the model to allow any gap, or choose one that fits");
         }
     }
+}
+
+/// A number that is not whole, in six digits, or as a whole one and what is beside it.
+fn fraction(x: f64) -> String {
+    let near: f64 = format!("{x:.5e}").parse().unwrap_or(x);
+    if near.fract() != 0.0 {
+        return Shown(near).to_string();
+    }
+    let (whole, beside) = (x.round(), x - x.round());
+    format!("{} {} {:.1e}", Shown(whole), if beside < 0.0 { '-' } else { '+' }, beside.abs())
 }

@@ -27,6 +27,9 @@ pub(super) struct Columns {
 /// Finds the columns of measurements, or only those of times and controls; what is missing is found wrong.
 pub(super) fn columns(sheet: &Sheet, model: &Model, measured: bool) -> Option<Columns> {
     let time = time(sheet);
+    if time.is_none() && is_model(sheet) {
+        return None;
+    }
     let controls: Vec<usize> = model.controls.iter().filter_map(|name| control(sheet, name)).collect();
     let sensor = sheet.column("sensor");
     let track = sheet.column("track_id");
@@ -70,11 +73,20 @@ pub(super) fn names_measures(sheet: &Sheet, model: &Model) -> bool {
 /// The column `time`.
 pub(super) fn time(sheet: &Sheet) -> Option<usize> {
     let found = sheet.column("time");
-    if found.is_none() {
+    if found.is_none() && is_model(sheet) {
+        let help = "the model comes first, then the data";
+        sheet.findings.wrong_help(&sheet.header_span(), "this is a model file, not a table", help);
+    } else if found.is_none() {
         let help = separator(sheet).unwrap_or_else(|| near(sheet, "time"));
         sheet.findings.wrong_help(&sheet.header_span(), "the table has no column `time`", help);
     }
     found
+}
+
+/// Whether the table begins as model files do: with the title of a section.
+fn is_model(sheet: &Sheet) -> bool {
+    let first = sheet.header.first().map_or("", String::as_str);
+    first.starts_with('[') || (first.starts_with('#') && sheet.findings.source.name.ends_with(".toml"))
 }
 
 /// A header of one column that holds other separators was not written as CSV.
@@ -85,8 +97,10 @@ fn separator(sheet: &Sheet) -> Option<String> {
 }
 
 /// The remedy for a column that is missing.
-fn near(sheet: &Sheet, name: &str) -> String {
-    match suggest(name, sheet.header.iter().map(String::as_str)) {
+pub(super) fn near(sheet: &Sheet, name: &str) -> String {
+    // a control's column without its prefix
+    let bare = name.strip_prefix("u_").filter(|bare| sheet.column(bare).is_some());
+    match bare.or_else(|| suggest(name, sheet.header.iter().map(String::as_str))) {
         Some(other) => format!("rename `{other}` to `{name}`"),
         None => format!("the table has {}", list(sheet.header.iter().map(String::as_str))),
     }

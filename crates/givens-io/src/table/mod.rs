@@ -71,10 +71,7 @@ impl Row {
 impl Track {
     /// A time of this track in words: RFC 3339 if the table's times are, else seconds.
     pub fn time_text(&self, time: f64) -> String {
-        match self.origin.and_then(|origin| origin.after(time)) {
-            Some(instant) => instant.to_string(),
-            None => time.to_string(),
-        }
+        time::time_text(self.origin, time)
     }
 
     /// Reads a time on the axis of this track: seconds, or RFC 3339 if the table's times are.

@@ -1,5 +1,6 @@
 //! Times in cells: seconds, or RFC 3339.
 
+use givens_core::scalar::Shown;
 use jiff::{SignedDuration, Timestamp};
 
 use super::cell::{Cell, number, short};
@@ -22,11 +23,15 @@ impl Calendar {
     /// What is missing or wrong, in words.
     pub fn parse(text: &str) -> Result<Self, String> {
         // What a date is shall be told before what the library makes of it.
-        let digits = text.bytes().take_while(u8::is_ascii_digit).count();
-        if digits != 4 || text.as_bytes().get(4) != Some(&b'-') || text.contains('[') {
-            return Err("it is not of the form 2026-03-01T12:00:00Z".into());
-        }
-        text.parse().map(Self).map_err(|error| error.to_string())
+        shaped(text)?;
+        let instant: Timestamp = text.parse().map_err(|error: jiff::Error| {
+            if text.starts_with("9999-12-3") {
+                "the last instant that can be counted is 9999-12-30T22:00:00Z".to_owned()
+            } else {
+                error.to_string()
+            }
+        })?;
+        Ok(Self(instant))
     }
 
     /// Seconds from `earlier` to `self`.
@@ -46,6 +51,70 @@ impl core::fmt::Display for Calendar {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         self.0.fmt(f)
     }
+}
+
+/// Whether a text has the shape of RFC 3339. What another reader would bend to it is refused: a leap second would
+/// become the second before.
+fn shaped(text: &str) -> Result<(), String> {
+    let form = || Err("it is not of the form 2026-03-01T12:00:00Z".to_owned());
+    let shape = |text: &str| text.replace(|c: char| c.is_ascii_digit(), "0");
+    let Some((moment, rest)) = text.split_at_checked(19) else {
+        return match shape(text).as_str() {
+            "0000-00-00" => Err("its time of day is missing".into()),
+            _ => form(),
+        };
+    };
+    let separated = moment.replacen(['t', ' '], "T", 1);
+    if shape(&separated) != "0000-00-00T00:00:00" {
+        return form();
+    }
+    if moment.ends_with(":60") {
+        return Err("a leap second cannot be told from its neighbours here".into());
+    }
+    let fraction =
+        rest.strip_prefix('.').map_or(0, |rest| rest.bytes().take_while(u8::is_ascii_digit).count());
+    let offset = if fraction == 0 { rest } else { rest.get(fraction + 1..).unwrap_or("") };
+    if fraction > 9 {
+        return Err("it has more than nine digits behind the point of its seconds".into());
+    }
+    match (offset, shape(offset).as_str()) {
+        ("", _) => Err("its offset from UTC is missing, such as Z or +01:00".into()),
+        ("Z" | "z", _) => Ok(()),
+        (_, "+00:00" | "-00:00") if &offset[1..3] < "24" && &offset[4..] < "60" => Ok(()),
+        _ => Err(format!("`{offset}` is no offset from UTC, such as Z or +01:00")),
+    }
+}
+
+/// A time in words: RFC 3339 if times count from such an origin, else seconds.
+pub(super) fn time_text(origin: Option<Calendar>, time: f64) -> String {
+    match origin.and_then(|origin| origin.after(time)) {
+        Some(instant) => instant.to_string(),
+        None => Shown(time).to_string(),
+    }
+}
+
+/// Whether two texts, of times that are the same number of seconds, mean different times all the same.
+pub(super) fn differ(a: &str, b: &str) -> bool {
+    match (Calendar::parse(a), Calendar::parse(b)) {
+        (Ok(a), Ok(b)) => a != b,
+        _ => decimal(a) != decimal(b),
+    }
+}
+
+/// A decimal number without its rounding: its digits from the first to the last that is not zero, its sign, and
+/// the power of ten behind them.
+fn decimal(text: &str) -> (String, bool, i64) {
+    let (mantissa, exponent) = text.split_once(['e', 'E']).unwrap_or((text, "0"));
+    let (whole, part) = mantissa.split_once('.').unwrap_or((mantissa, ""));
+    let digits: String = whole.chars().chain(part.chars()).filter(char::is_ascii_digit).collect();
+    let digits = digits.trim_start_matches('0');
+    let kept = digits.trim_end_matches('0');
+    if kept.is_empty() {
+        return (String::new(), false, 0);
+    }
+    let zeros = (digits.len() - kept.len()) as i64;
+    let power = exponent.parse().unwrap_or(0_i64).saturating_add(zeros - part.len() as i64);
+    (kept.to_owned(), mantissa.starts_with('-'), power)
 }
 
 /// A time as a table gives it.

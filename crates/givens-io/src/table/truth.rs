@@ -47,7 +47,11 @@ fn truth(findings: &Findings, model: &Model, tracks: &Tracks) -> Option<Truth> {
     let columns: Vec<Option<usize>> = model.states.iter().map(|name| sheet.column(name)).collect();
     if columns.iter().all(Option::is_none) {
         let names = list(model.states.iter().map(String::as_str));
-        let help = format!("the columns bear the names of the states: {names}");
+        let near = model.states.iter().find_map(|name| {
+            let other = suggest(name, sheet.header.iter().map(String::as_str))?;
+            Some(format!("rename `{other}` to `{name}`; the states are {names}"))
+        });
+        let help = near.unwrap_or_else(|| format!("the columns bear the names of the states: {names}"));
         findings.wrong_help(&sheet.header_span(), "the table has no column of a state", help);
     }
     let ids = sheet.column("track_id");

@@ -134,3 +134,57 @@ fn definitions_in_a_circle_are_told() {
         Case("r = \"hypot(x, y)\"", "r = \"b\"\nb = \"2*c\"\nc = \"r\"", (9, 1), "r → b → c → r", ""),
     ]);
 }
+
+#[test]
+fn names_that_break_a_line_are_told() {
+    for (name, place) in [("a\\nb", 14), ("a\\u001b[2J", 14), ("a\\u2028b", 14)] {
+        let text = RIGHT.replacen("\"radar\"", &format!("\"{name}\""), 1);
+        let errors = Model::parse(&text, "m.toml").unwrap_err();
+        let first = errors.first().unwrap();
+        assert_eq!(first.position().0, place, "{errors}");
+        assert!(first.message.contains("a line end or a control character"), "{errors}");
+    }
+}
+
+#[test]
+fn controls_without_their_prefix_are_told() {
+    let told = |next: &str| {
+        let text = RIGHT.replacen("x + dt*vx", next, 1);
+        let errors = Model::parse(&text, "m.toml").unwrap_err();
+        errors.first().unwrap().help.clone().unwrap()
+    };
+    assert_eq!(told("x + gas + u_gas"), "did you mean the control `u_gas`?");
+    assert!(told("x + gas").ends_with("(a control would be `u_gas`)"));
+    // where no control may stand, none is proposed
+    let errors = Model::parse(&RIGHT.replacen("q = 0.1", "q = \"gas\"", 1), "m.toml").unwrap_err();
+    assert!(!errors.to_string().contains("u_gas"), "{errors}");
+}
+
+#[test]
+fn what_is_missing_is_told_with_the_way_to_add_it() {
+    for (from, to, help) in [
+        ("vx = \"vx\", ", "", "a state that stays as it is has the transition vx = \"vx\""),
+        ("vx = 1, ", "", "add vx = …"),
+        ("x + dt*vx", "x + dt*", "complete it"),
+        ("x + dt*vx", "x + * dt", "write one before `*`"),
+    ] {
+        let errors = Model::parse(&RIGHT.replacen(from, to, 1), "m.toml").unwrap_err();
+        assert!(errors.first().unwrap().help.as_ref().is_some_and(|told| told.contains(help)), "{errors}");
+    }
+}
+
+#[test]
+fn what_nests_too_deeply_is_told_at_its_line() {
+    let dots = vec!["a"; 3000].join(".");
+    for deep in
+        [format!("{dots} = 1"), format!("x = {}", "[".repeat(3000)), format!("x = {}", "{a=".repeat(3000))]
+    {
+        let errors = Model::parse(&format!("[state]\n{deep}\n[dynamics]\n"), "m.toml").unwrap_err();
+        assert_eq!(
+            errors.first().unwrap().position().0,
+            2,
+            "{deep:.20}: {}",
+            errors.first().unwrap().message
+        );
+    }
+}

@@ -37,7 +37,13 @@ fn numbers_that_cannot_be_are_told() {
             "division by zero",
         ),
         Case("mean = [1, 2, 3]", "mean = [1, 1e999, 3]", (4, 12), "", ""),
-        Case("q = 0.1", "q = \"sqrt(-1)\"", (7, 5), "the parameter `q` is NaN", "root"),
+        Case(
+            "q = 0.1",
+            "q = \"sqrt(-1)\"",
+            (7, 6),
+            "`sqrt(-1)` is a constant that is not a number in the parameter `q`",
+            "root",
+        ),
         Case("time = 0.0", "time = \"2026-03-01T12:00:00\"", (3, 8), "`time` is not a time", "offset"),
         Case("time = 0.0", "time = \"2026-03-01\"", (3, 8), "`time` is not a time", "offset"),
         Case("time = 0.0", "time = 2026-03-01T12:00:00", (3, 8), "`time` is not a time", "offset"),
@@ -91,7 +97,23 @@ fn matrices_that_are_no_covariances_are_told() {
             "no negative variance",
         ),
         Case("[[4]]", "[[-4]]", (21, 9), "pivot 1 (`px`)", "no negative variance"),
-        Case("[[4]]", "[[\"0/0\"]]", (21, 9), "row 1, column 1 of `cov` is NaN", "division"),
+        Case(
+            "[[4]]",
+            "[[\"0/0\"]]",
+            (21, 10),
+            "`0/0` is a constant that is not a number in row 1, column 1",
+            "division",
+        ),
+        Case(
+            "x + dt*vx",
+            "x + dt*(vx + log(-1))",
+            (11, 34),
+            "`log(-1)` is a constant that is not a number",
+            "logarithm",
+        ),
+        Case("\"x + dt*vx\"", "\"sqrt(-q)\"", (11, 20), "the transition of `x` is NaN", "root"),
+        Case("= \"r\"", "= \"r + min(1, 0/0)\"", (15, 34), "`0/0` is a constant", "division"),
+        Case("\"atan2(y, x)\"", "\"1/(q - q)\"", (15, 37), "the measure `bearing` is inf", "division"),
     ]);
 }
 

@@ -2,6 +2,7 @@
 
 use super::chi_squared::chi_squared_band;
 use crate::Estimates;
+use crate::scalar::Shown;
 
 /// The NIS of a run against its χ² band.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,7 +59,7 @@ impl core::fmt::Display for Consistency {
             write!(
                 f,
                 "{word}: mean NIS {:.3} per degree of freedom, 95 % band {low:.3} to {high:.3}",
-                self.ratio
+                Shown(self.ratio)
             )
         };
         match self.verdict() {

@@ -2,6 +2,7 @@
 
 use super::runtime::{AnyPoints, Parts};
 use crate::Row;
+use crate::filter::predict::OneTransition;
 use crate::filter::{Block, Covariance, Gaussian, SquareRoot};
 use crate::model::{Observation, Transition};
 use crate::rule::{
@@ -117,9 +118,25 @@ impl Choice {
         macro_rules! with {
             ($rule:expr) => {
                 if covariance {
-                    run(Parts::<_, Covariance>::new($rule, self.block), model, sensors, rows, t0, prior, goal)
+                    run(
+                        Parts::<_, Covariance, _>::new($rule, self.block, OneTransition),
+                        model,
+                        sensors,
+                        rows,
+                        t0,
+                        prior,
+                        goal,
+                    )
                 } else {
-                    run(Parts::<_, SquareRoot>::new($rule, self.block), model, sensors, rows, t0, prior, goal)
+                    run(
+                        Parts::<_, SquareRoot, _>::new($rule, self.block, OneTransition),
+                        model,
+                        sensors,
+                        rows,
+                        t0,
+                        prior,
+                        goal,
+                    )
                 }
             };
         }

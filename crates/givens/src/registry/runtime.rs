@@ -41,23 +41,28 @@ impl PointRule for AnyPoints {
 
 /// A method from its parts.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Parts<R, F> {
+pub(super) struct Parts<R, F, U> {
     rule: R,
     block: Block,
+    time: U,
     form: PhantomData<F>,
 }
 
-impl<R, F> Parts<R, F> {
-    pub fn new(rule: R, block: Block) -> Self {
-        Self { rule, block, form: PhantomData }
+impl<R, F, U> Parts<R, F, U> {
+    pub fn new(rule: R, block: Block, time: U) -> Self {
+        Self { rule, block, time, form: PhantomData }
     }
 }
 
-impl<R: Rule, F: Form> Method for Parts<R, F> {
+impl<R: Rule, F: Form, U: Copy> Method for Parts<R, F, U> {
     type Rule = R;
     type Form = F;
+    type Time = U;
     fn rule(&self) -> R {
         self.rule
+    }
+    fn time_update(&self) -> U {
+        self.time
     }
     fn block(&self) -> Block {
         self.block

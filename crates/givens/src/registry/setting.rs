@@ -4,6 +4,7 @@ use super::choice::{Choice, FormName, RuleName};
 use super::entry::{Entry, find, names};
 use crate::filter::Block;
 use crate::rule::{CentralDifference, GaussHermite, Unscented};
+use crate::scalar::Shown;
 
 /// The value of a setting.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,7 +18,7 @@ pub enum Value {
 impl core::fmt::Display for Value {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self {
-            Value::Number(x) => x.fmt(f),
+            Value::Number(x) => Shown(*x).fmt(f),
             Value::Word(word) => word.fmt(f),
         }
     }
@@ -184,7 +185,7 @@ fn set_option(choice: &mut Choice, at: usize, setting: &Setting, method: &str) -
         "eta" => choice.central_difference.eta = number,
         _ => {
             if number.fract() != 0.0 || !(2.0..=64.0).contains(&number) {
-                let message = format!("points = {number}: must be a whole number from 2 to 64");
+                let message = format!("points = {}: must be a whole number from 2 to 64", Shown(number));
                 return Err(refused(at, message));
             }
             choice.gauss_hermite.points = number as usize;

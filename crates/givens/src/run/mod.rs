@@ -5,8 +5,9 @@ mod recorder;
 
 pub use goal::{Goal, Outcome};
 
-use crate::filter::{Gaussian, Method, StepError};
-use crate::model::{Observation, Transition};
+use crate::filter::{Gaussian, Over, StepError};
+use crate::model::Observation;
+use crate::scalar::Shown;
 use crate::{Data, Estimates, Row};
 
 /// A run that stopped in the middle: what it had finished, and why it went no further.
@@ -22,7 +23,7 @@ pub struct Failure {
 
 impl core::fmt::Display for Failure {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        write!(f, "row {}, t = {}: {}", self.row, self.error.time, self.error.fault)
+        write!(f, "row {}, t = {}: {}", self.row, Shown(self.error.time), self.error.fault)
     }
 }
 
@@ -36,7 +37,7 @@ impl core::error::Error for Failure {
 ///
 /// # Errors
 /// The first step that fails, with all rows before it.
-pub fn filter<X: Method, M: Transition, H: Observation>(
+pub fn filter<X: Over<M>, M, H: Observation>(
     method: &X,
     model: &M,
     sensors: &H,
@@ -50,7 +51,7 @@ pub fn filter<X: Method, M: Transition, H: Observation>(
 ///
 /// # Errors
 /// The first step that fails, with the rows before it, smoothed among themselves.
-pub fn smooth<X: Method, M: Transition, H: Observation>(
+pub fn smooth<X: Over<M>, M, H: Observation>(
     method: &X,
     model: &M,
     sensors: &H,
@@ -61,7 +62,7 @@ pub fn smooth<X: Method, M: Transition, H: Observation>(
 }
 
 /// Runs a method over rows in order of time, for any goal; `prior` holds at time `t0`.
-pub fn run<'a, X: Method, M: Transition, H: Observation>(
+pub fn run<'a, X: Over<M>, M, H: Observation>(
     method: X,
     model: &M,
     sensors: &H,
@@ -70,7 +71,7 @@ pub fn run<'a, X: Method, M: Transition, H: Observation>(
     prior: &Gaussian,
     goal: Goal,
 ) -> Outcome {
-    let mut outcome = Outcome::new(model.states(), sensors.measures(), goal);
+    let mut outcome = Outcome::new(prior.mean().len(), sensors.measures(), goal);
     recorder::record(method, model, sensors, rows, t0, prior, &mut outcome, goal);
     outcome
 }

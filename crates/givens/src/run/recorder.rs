@@ -1,8 +1,8 @@
 //! The loop over the rows: predict, update, write down; then back again for the smoothers.
 
 use super::goal::{Goal, Outcome};
-use crate::filter::{Belief, Fault, Filter, Form, Gaussian, Method, Prior, Sizes, StepError};
-use crate::model::{Observation, Transition};
+use crate::filter::{Belief, Filter, Form, Gaussian, Method, Over, Prior, StepError};
+use crate::model::Observation;
 use crate::rule::Rule;
 use crate::smoother::{FixedPoint, History};
 use crate::{Estimates, Row};
@@ -23,7 +23,7 @@ pub(super) struct Recorder<'m, X: Method, M, H> {
     predicted: bool,
 }
 
-impl<'m, X: Method, M: Transition, H: Observation> Recorder<'m, X, M, H> {
+impl<'m, X: Over<M>, M, H: Observation> Recorder<'m, X, M, H> {
     /// A filter with memory of its own for this model, these sensors and `rows` rows.
     pub fn start(
         method: X,
@@ -34,11 +34,9 @@ impl<'m, X: Method, M: Transition, H: Observation> Recorder<'m, X, M, H> {
         goal: Goal,
         rows: usize,
     ) -> Result<Self, StepError> {
-        let n = model.states();
-        let option = |error| StepError { fault: Fault::Option(error), time: t0, step: 0 };
-        method.rule().check(n).map_err(option)?;
-        let shape = method.rule().shape(n);
-        let sizes = Sizes::of_model(model, shape).with_sensor(sensors, shape);
+        let sizes = method.sizes(model).map_err(|fault| StepError { fault, time: t0, step: 0 })?;
+        let n = sizes.states;
+        let sizes = sizes.with_sensor(sensors, method.rule().shape(n));
         let smoothing = goal != Goal::Filter;
         let memory = vec![0.0; OwnFilter::<X, M>::memory_len(&method, sizes, smoothing)];
         let start = Prior { time: t0, mean: prior.mean(), factor: prior.factor(), cov: prior.cov() };
@@ -166,7 +164,7 @@ impl<'m, X: Method, M: Transition, H: Observation> Recorder<'m, X, M, H> {
 }
 
 /// Appends a filter's mean and covariance.
-fn push<X: Method, M: Transition>(filter: &OwnFilter<X, M>, mean: &mut Vec<f64>, cov: &mut Vec<f64>) {
+fn push<X: Over<M>, M>(filter: &OwnFilter<X, M>, mean: &mut Vec<f64>, cov: &mut Vec<f64>) {
     let (n, at) = (filter.mean().len(), cov.len());
     mean.extend_from_slice(filter.mean());
     cov.resize(at + n * n, 0.0);
@@ -186,7 +184,7 @@ fn put<F: Form>(out: &mut Estimates, row: usize, belief: &Belief<f64>) {
 }
 
 /// Runs over all rows; a failure ends the run after the rows before it have been smoothed among themselves.
-pub(super) fn record<'a, X: Method, M: Transition, H: Observation>(
+pub(super) fn record<'a, X: Over<M>, M, H: Observation>(
     method: X,
     model: &M,
     sensors: &H,

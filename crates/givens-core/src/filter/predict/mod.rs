@@ -1,15 +1,116 @@
 //! Time updates: how a belief moves from one time to a later one.
 
+mod continuous;
+mod euler_maruyama;
+mod front;
 mod gain;
+mod image;
+mod integrate;
+mod ito_taylor;
+mod level_set;
+mod moment_ode;
+mod moments;
+mod noise;
+mod packed;
+mod settle;
 mod transition;
+mod velocity;
 
+pub use euler_maruyama::EulerMaruyama;
 pub use gain::{Backward, accumulate};
 pub(crate) use gain::{accumulate_scratch, multiply, split};
-pub(crate) use transition::{predict, predict_scratch};
+pub use ito_taylor::{ItoTaylor, Variant};
+pub use level_set::{Gauge, LevelSet};
+pub use moment_ode::MomentOde;
+pub use transition::OneTransition;
+pub use velocity::Velocity;
 
 use super::error::{Fault, Matrix};
+use super::form::{Belief, Form};
+use super::start::Sizes;
 use crate::kernels::Health;
+use crate::model::At;
+use crate::ode::Work;
+use crate::rule::{Rule, Shape};
 use crate::scalar::Real;
+
+/// What a step of a time update works with.
+#[derive(Debug)]
+pub struct Given<'a, T, M, R> {
+    /// The rule, and its table of nodes and weights.
+    pub rule: &'a R,
+    /// See [`Rule::tabulate`].
+    pub table: &'a [T],
+    /// The model.
+    pub model: &'a M,
+    /// Time at the start of the step, its length, controls and parameters.
+    pub at: At<'a, T>,
+}
+
+/// A gap in time, divided.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Plan {
+    /// Number of steps; the belief stays where the last successful one has left it.
+    pub count: usize,
+    /// Length of each.
+    pub dt: f64,
+}
+
+/// A step that did not succeed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stopped {
+    /// The time it had reached, if it is not the start of the step.
+    pub reached: Option<f64>,
+    /// Why it went no further.
+    pub fault: Fault,
+}
+
+impl From<Fault> for Stopped {
+    fn from(fault: Fault) -> Self {
+        Self { reached: None, fault }
+    }
+}
+
+/// A time update, plain data: how a belief moves over models of type `M`.
+pub trait TimeUpdate<M>: Copy {
+    /// What of the options, or of the model, this time update cannot serve.
+    ///
+    /// # Errors
+    /// An option out of its range, a model with a property that the method excludes.
+    fn check(&self, model: &M) -> Result<(), Fault>;
+
+    /// Length n of the model's state.
+    fn states(&self, model: &M) -> usize;
+
+    /// The model's sizes, for a rule of that shape; no measures yet.
+    fn sizes(&self, model: &M, shape: Shape) -> Sizes;
+
+    /// The model's parameters.
+    fn parameters<'m>(&self, model: &'m M) -> &'m [f64];
+
+    /// Scalars of scratch that a step needs.
+    fn scratch(&self, sizes: Sizes, shape: Shape, smoothing: bool) -> usize;
+
+    /// Divides the gap between two times into steps.
+    ///
+    /// # Errors
+    /// A gap that the model has no steps for.
+    fn plan(&self, model: &M, from: f64, to: f64) -> Result<Plan, Fault>;
+
+    /// Moves `belief` over one step; with `back`, also what a smoother needs to come back over it. After a fault the
+    /// belief is as before, or that of the time reached.
+    ///
+    /// # Errors
+    /// Why the step could not be done.
+    fn step<T: Real, R: Rule, F: Form>(
+        &self,
+        given: &Given<T, M, R>,
+        belief: &mut Belief<T>,
+        back: Option<&mut Backward<T>>,
+        work: &mut Work,
+        scratch: &mut [T],
+    ) -> Result<T::Mask, Stopped>;
+}
 
 /// The sick lanes of a kernel, or the fault if all are.
 #[inline(always)]

@@ -1,90 +1,125 @@
 //! One step of a discrete model: m⁻ = E[f(x)], P⁻ = Cov[f(x)] + Q (2009 eq 38–42; 2011 Tables 1, 3).
 
-use super::gain::{Backward, gain_of_covariance, gain_of_factor, gain_scratch};
-use super::lanes;
+use super::gain::Backward;
+use super::settle::{Moved, settle, settle_scratch};
+use super::{Given, Plan, Stopped, TimeUpdate, lanes};
 use crate::filter::error::{Fault, Matrix, Quantity};
 use crate::filter::form::{Belief, Form};
 use crate::filter::memory::{put_columns, take};
-use crate::kernels::{add_outer, cholesky_scaled, copy_lower, downdate, square, tria};
-use crate::model::{At, Moving, Transition};
+use crate::filter::start::Sizes;
+use crate::model::{Moving, Transition};
+use crate::ode::Work;
 use crate::rule::{Rule, Shape, Spread, spread_scratch};
 use crate::scalar::{Mask, Real};
 
-/// Scalars of scratch of [`predict`]: n states, q noise columns, `map` of the model's own.
-pub(crate) const fn predict_scratch(n: usize, q: usize, shape: Shape, map: usize, smoothing: bool) -> usize {
-    let columns = n + shape.plus + q;
-    let step = n * columns + n * shape.minus + n * q + 2 * n + 2 * n * n;
-    let gain = if smoothing { gain_scratch(n, shape.plus + q) } else { 0 };
-    step + spread_scratch(shape, n, n, map) + gain
+/// `transition`: the step of a discrete model, by the rule (docs/algorithms.md P1, P2).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct OneTransition;
+
+impl OneTransition {
+    /// Scalars of scratch of a step.
+    pub(crate) const fn scratch(sizes: Sizes, shape: Shape, smoothing: bool) -> usize {
+        let Sizes { states: n, process_noise: q, .. } = sizes;
+        let stride = n + shape.plus + q;
+        n * stride
+            + n * shape.minus
+            + n
+            + n * q
+            + larger(spread_scratch(shape, n, n, sizes.model), settle_scratch(n, stride, smoothing))
+    }
 }
 
-/// Moves `belief` over one transition; with `back`, also what a smoother needs to come back over it.
-/// After a fault the belief is as before.
+/// The larger of two lengths.
+pub(super) const fn larger(a: usize, b: usize) -> usize {
+    if a > b { a } else { b }
+}
+
+impl<M: Transition> TimeUpdate<M> for OneTransition {
+    fn check(&self, _: &M) -> Result<(), Fault> {
+        Ok(())
+    }
+
+    fn states(&self, model: &M) -> usize {
+        model.states()
+    }
+
+    fn sizes(&self, model: &M, shape: Shape) -> Sizes {
+        let n = model.states();
+        Sizes {
+            states: n,
+            process_noise: model.noise().columns(n),
+            measures: 0,
+            measurement_noise: 0,
+            controls: model.controls(),
+            parameters: model.parameters().len(),
+            model: model.transition_scratch(shape.points),
+        }
+    }
+
+    fn parameters<'m>(&self, model: &'m M) -> &'m [f64] {
+        model.parameters()
+    }
+
+    fn scratch(&self, sizes: Sizes, shape: Shape, smoothing: bool) -> usize {
+        Self::scratch(sizes, shape, smoothing)
+    }
+
+    /// A model with a fixed step takes as many as the gap holds; others take one of any length.
+    fn plan(&self, model: &M, from: f64, to: f64) -> Result<Plan, Fault> {
+        let gap = to - from;
+        let Some(period) = model.period() else {
+            return Ok(Plan { count: usize::from(gap > 0.0), dt: gap });
+        };
+        let whole = Real::floor(gap / period + 0.5);
+        // late times are themselves rounded
+        let rounding = 4.0 * f64::EPSILON * Real::abs(to) / period;
+        if Real::abs(gap / period - whole) > 1e-6 + rounding {
+            return Err(Fault::NotWholeSteps { gap, period });
+        }
+        Ok(Plan { count: whole as usize, dt: period })
+    }
+
+    #[inline(always)]
+    fn step<T: Real, R: Rule, F: Form>(
+        &self,
+        given: &Given<T, M, R>,
+        belief: &mut Belief<T>,
+        back: Option<&mut Backward<T>>,
+        _: &mut Work,
+        mut scratch: &mut [T],
+    ) -> Result<T::Mask, Stopped> {
+        let Given { rule, table, model, ref at } = *given;
+        let n = belief.mean.len();
+        let shape = rule.shape(n);
+        let q = model.noise().columns(n);
+        let stride = n + shape.plus + q;
+        let dev = take(&mut scratch, n * stride);
+        let minus = take(&mut scratch, n * shape.minus);
+        let mean = take(&mut scratch, n);
+        let root = take(&mut scratch, n * q);
+
+        let mut spread = Spread { mean, dev, stride, minus };
+        rule.spread(table, &Moving(model), at, belief.mean, belief.factor, &mut spread, scratch);
+        if let Some(component) = spread.not_finite(n + shape.plus) {
+            let derived = shape.points == 0 && spread.mean[component].finite().any();
+            let quantity = if derived { Quantity::TransitionDerivative } else { Quantity::Transition };
+            return Err(Fault::NotFinite { quantity, component }.into());
+        }
+        let Spread { mean, dev, minus, .. } = spread;
+        let sick = lanes(model.noise_root(at, root), Matrix::ProcessNoise)?;
+        if let Some(component) = not_finite(root, q) {
+            return Err(Fault::NotFinite { quantity: Quantity::ProcessNoise, component }.into());
+        }
+        put_columns(dev, stride, n + shape.plus, root, q);
+        let rounding = rule.rounding(n);
+        let moved = Moved { mean, dev, stride, minus, lost: shape.minus, rounding };
+        Ok(sick | settle::<T, F>(moved, belief, back, scratch)?)
+    }
+}
+
+/// The first row of a root of `columns` columns that is not finite in any lane.
 #[inline(always)]
-pub(crate) fn predict<T: Real, M: Transition, R: Rule, F: Form>(
-    rule: &R,
-    table: &[T],
-    model: &M,
-    at: &At<T>,
-    belief: &mut Belief<T>,
-    back: Option<&mut Backward<T>>,
-    mut scratch: &mut [T],
-) -> Result<T::Mask, Fault> {
-    let n = belief.mean.len();
-    let shape = rule.shape(n);
-    let q = model.noise().columns(n);
-    let stride = n + shape.plus + q;
-    let dev = take(&mut scratch, n * stride);
-    let minus = take(&mut scratch, n * shape.minus);
-    let mean = take(&mut scratch, n);
-    let root = take(&mut scratch, n * q);
-    let scale = take(&mut scratch, n);
-
-    let mut spread = Spread { mean, dev, stride, minus };
-    rule.spread(table, &Moving(model), at, belief.mean, belief.factor, &mut spread, scratch);
-    if let Some(component) = spread.not_finite(n + shape.plus) {
-        return Err(Fault::NotFinite { quantity: Quantity::Transition, component });
-    }
-    let Spread { mean, dev, minus, .. } = spread;
-    let mut sick = lanes(model.noise_root(at, root), Matrix::ProcessNoise)?;
-    if q > 0 {
-        let wrong = |row: &[T]| row.iter().any(|x| (!x.finite()).all());
-        if let Some(component) = root.chunks_exact(q).position(wrong) {
-            return Err(Fault::NotFinite { quantity: Quantity::ProcessNoise, component });
-        }
-    }
-    put_columns(dev, stride, n + shape.plus, root, q);
-
-    if F::SQUARE_ROOT {
-        if let Some(back) = back {
-            let rounding = T::of(rule.rounding(n));
-            let size = |i: usize| rounding * mean[i].abs().max(belief.mean[i].abs());
-            sick = sick | gain_of_factor(dev, stride, minus, belief.factor, size, back, scratch)?;
-        }
-        sick = sick | lanes(tria(dev, n, stride, stride), Matrix::Predicted)?;
-        for column in 0..shape.minus {
-            for (v, row) in scale.iter_mut().zip(minus.chunks_exact(shape.minus)) {
-                *v = row[column];
-            }
-            sick = sick | lanes(downdate(dev, n, stride, scale), Matrix::Predicted)?;
-        }
-        copy_lower(belief.factor, n, dev, stride);
-    } else {
-        let cov = take(&mut scratch, n * n);
-        let next = take(&mut scratch, n * n);
-        square(cov, n, dev, stride, stride);
-        for i in 0..n {
-            scale[i] = cov[i * n + i];
-        }
-        add_outer(cov, n, n, minus, shape.minus, minus, shape.minus, shape.minus, -1.0);
-        next.copy_from_slice(cov);
-        sick = sick | lanes(cholesky_scaled(next, n, scale), Matrix::Predicted)?;
-        if let Some(back) = back {
-            gain_of_covariance(dev, stride, belief.factor, next, back);
-        }
-        belief.cov.copy_from_slice(cov);
-        belief.factor.copy_from_slice(next);
-    }
-    belief.mean.copy_from_slice(mean);
-    Ok(sick)
+pub(super) fn not_finite<T: Real>(root: &[T], columns: usize) -> Option<usize> {
+    let wrong = |row: &[T]| row.iter().any(|x| (!x.finite()).all());
+    root.chunks_exact(columns.max(1)).position(wrong)
 }

@@ -41,13 +41,19 @@ pub(crate) struct InnovationMut<'a, T> {
 }
 
 impl<T: Real> InnovationMut<'_, T> {
-    /// e = S_zz⁻¹ ν, whose square is NIS; `root` is S_zz in rows of length `stride`.
+    /// e = S_zz⁻¹ ν, whose square is NIS; `root` is S_zz in rows of length `stride`. A NIS that is not finite is the
+    /// fault of the component with which it ceases to be.
     #[inline(always)]
     pub fn whiten(&mut self, root: &[T], stride: usize, d: usize) -> Result<(), Fault> {
         let white = &mut self.white[..d];
         white.copy_from_slice(&self.nu[..d]);
         solve_lower(root, stride, white);
-        match white.iter().position(|&e| (!(e * e).finite()).all()) {
+        let mut nis = T::zero();
+        let endless = |&e: &T| {
+            nis = e.mul_add(e, nis);
+            (!nis.finite()).all()
+        };
+        match white.iter().position(endless) {
             Some(measure) => Err(Fault::NotFinite { quantity: Quantity::Innovation, component: measure }),
             None => Ok(()),
         }

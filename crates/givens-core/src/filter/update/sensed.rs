@@ -80,7 +80,9 @@ pub(super) fn sense<'a, T: Real, H: Observation, R: Rule>(
         let row = &dev[i * stride..i * stride + n + shape.plus];
         let size = row.iter().fold(mean[i].abs(), |sum, &x| sum + x.abs());
         if (!size.finite()).all() {
-            return bad(Quantity::Observation);
+            // a rule without points takes derivatives
+            let derived = shape.points == 0 && mean[i].finite().any();
+            return bad(if derived { Quantity::ObservationDerivative } else { Quantity::Observation });
         }
         let noise = &root[i * r..(i + 1) * r];
         if (!noise.iter().fold(T::zero(), |sum, &x| sum + x.abs()).finite()).all() {

@@ -1,0 +1,169 @@
+//! What moves the moments of a continuous model: the mean of its drift, the part of the drift that moves with x, and a
+//! root of the diffusion.
+
+use super::noise::{check_spread, diffusion};
+use crate::filter::error::Fault;
+use crate::filter::memory::take;
+use crate::model::{At, Flow, Map, Sde, Varies};
+use crate::rule::{Rule, Shape, Spread, spread_scratch};
+use crate::scalar::Real;
+
+/// E\[f\], D and N with Cov\[f, x\] = D Sᵀ and E\[G Gᵀ\] = N J Nᵀ.
+pub(super) struct Imaged<'a, T> {
+    /// E\[f\], length n.
+    pub velocity: &'a mut [T],
+    /// D, n × n.
+    pub dev: &'a mut [T],
+    /// N, n × columns, the negative ones last.
+    pub noise: &'a mut [T],
+}
+
+/// How the drift is averaged over a belief.
+pub(super) trait Image: Copy {
+    /// D does not depend on S but by D = J S: it may be asked for J itself.
+    const FIRST_ORDER: bool;
+    /// Length n of the state.
+    fn states(&self) -> usize;
+    /// Columns of N, of positive and of negative weight.
+    fn noises(&self) -> (usize, usize);
+    /// Scalars of scratch.
+    fn scratch(&self) -> usize;
+    /// Evaluates them at N(`mean`, S Sᵀ), S = `factor`.
+    fn image<T: Real>(
+        &self,
+        at: &At<T>,
+        table: &[T],
+        mean: &[T],
+        factor: &[T],
+        out: &mut Imaged<T>,
+        scratch: &mut [T],
+    ) -> Result<(), Fault>;
+    /// N alone, at the same.
+    fn noise<T: Real>(
+        &self,
+        at: &At<T>,
+        table: &[T],
+        mean: &[T],
+        factor: &[T],
+        noise: &mut [T],
+        scratch: &mut [T],
+    ) -> Result<(), Fault>;
+}
+
+/// By a rule.
+pub(super) struct ByRule<'a, M, R> {
+    pub model: &'a M,
+    pub rule: &'a R,
+}
+
+impl<M, R> Clone for ByRule<'_, M, R> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<M, R> Copy for ByRule<'_, M, R> {}
+
+/// Columns of N, of positive and of negative weight.
+pub(super) fn by_rule_noises<M: Sde>(model: &M, shape: Shape) -> (usize, usize) {
+    let (n, q) = (model.states(), model.noises());
+    if flow(model).diffusion { (q * (1 + n + shape.plus), q * shape.minus) } else { (q, 0) }
+}
+
+/// Scalars of scratch of the image by a rule of this shape.
+pub(super) fn by_rule_scratch<M: Sde>(model: &M, shape: Shape) -> usize {
+    let (n, map) = (model.states(), flow(model));
+    let outputs = map.outputs();
+    // the first two are for the noise alone, which is asked for with its own mean and D
+    n * (1 + n)
+        + outputs * (1 + n + shape.plus + shape.minus)
+        + spread_scratch(shape, n, outputs, map.scratch(shape.points))
+}
+
+/// The drift, and the diffusion below it if the state moves it.
+fn flow<M: Sde>(model: &M) -> Flow<'_, M> {
+    Flow { model, step: false, diffusion: model.diffusion_varies() == Varies::WithState }
+}
+
+impl<'a, M: Sde, R: Rule> ByRule<'a, M, R> {
+    fn flow(&self) -> Flow<'a, M> {
+        flow(self.model)
+    }
+
+    fn shape(&self) -> Shape {
+        self.rule.shape(self.model.states())
+    }
+}
+
+impl<M: Sde, R: Rule> Image for ByRule<'_, M, R> {
+    const FIRST_ORDER: bool = R::FIRST_ORDER;
+
+    fn states(&self) -> usize {
+        self.model.states()
+    }
+
+    fn noises(&self) -> (usize, usize) {
+        by_rule_noises(self.model, self.shape())
+    }
+
+    fn scratch(&self) -> usize {
+        by_rule_scratch(self.model, self.shape())
+    }
+
+    #[inline(always)]
+    fn image<T: Real>(
+        &self,
+        at: &At<T>,
+        table: &[T],
+        mean: &[T],
+        factor: &[T],
+        out: &mut Imaged<T>,
+        mut scratch: &mut [T],
+    ) -> Result<(), Fault> {
+        let (n, q, shape, map) = (mean.len(), self.model.noises(), self.shape(), self.flow());
+        let (outputs, stride, lost) = (map.outputs(), n + shape.plus, shape.minus);
+        let average = take(&mut scratch, outputs);
+        let dev = take(&mut scratch, outputs * stride);
+        let minus = take(&mut scratch, outputs * lost);
+        let mut spread = Spread { mean: average, dev, stride, minus };
+        self.rule.spread(table, &map, at, mean, factor, &mut spread, scratch);
+        check_spread(&spread, n, q, shape.points)?;
+        out.velocity.copy_from_slice(&spread.mean[..n]);
+        for (to, from) in out.dev.chunks_exact_mut(n).zip(spread.dev.chunks_exact(stride)) {
+            to.copy_from_slice(&from[..n]);
+        }
+        if !map.diffusion {
+            return diffusion(self.model, at, mean, out.noise);
+        }
+        let (plus, minus) = self.noises();
+        for i in 0..n {
+            let row = &mut out.noise[i * (plus + minus)..][..plus + minus];
+            row[..q].copy_from_slice(&spread.mean[n + i * q..][..q]);
+            for j in 0..q {
+                let from = n + i * q + j;
+                row[q + j * stride..][..stride].copy_from_slice(&spread.dev[from * stride..][..stride]);
+                row[plus + j * lost..][..lost].copy_from_slice(&spread.minus[from * lost..][..lost]);
+            }
+        }
+        Ok(())
+    }
+
+    #[inline(always)]
+    fn noise<T: Real>(
+        &self,
+        at: &At<T>,
+        table: &[T],
+        mean: &[T],
+        factor: &[T],
+        noise: &mut [T],
+        scratch: &mut [T],
+    ) -> Result<(), Fault> {
+        if !self.flow().diffusion {
+            return diffusion(self.model, at, mean, noise);
+        }
+        let n = mean.len();
+        let (velocity, rest) = scratch.split_at_mut(n);
+        let (dev, rest) = rest.split_at_mut(n * n);
+        self.image(at, table, mean, factor, &mut Imaged { velocity, dev, noise }, rest)
+    }
+}

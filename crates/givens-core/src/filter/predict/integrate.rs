@@ -1,0 +1,194 @@
+//! A belief carried over a gap by a solver, and what a smoother needs to come back.
+
+use super::gain::{Backward, gain_of_covariance};
+use super::image::Image;
+use super::moments::gather;
+use super::{Given, Stopped};
+use crate::filter::error::{Fault, Halt, Matrix, Quantity};
+use crate::filter::form::{Belief, Form};
+use crate::filter::memory::{put_columns, take};
+use crate::filter::start::Sizes;
+use crate::kernels::{Health, copy_lower, downdate, solve_lower, tria};
+use crate::model::At;
+use crate::ode::{Integrator, Segment, Stop, System, Why, Work};
+use crate::scalar::{Mask, Real};
+
+/// A system whose state is a belief: the mean first, then its spread, then the matrix X of C13.
+pub(super) trait Carrier: System<Fault = Fault> {
+    /// What moves it.
+    type Image: Image;
+    /// It.
+    fn image(&self) -> Self::Image;
+    /// The state of the solver at a belief.
+    fn begin<T: Real>(&self, belief: &Belief<T>, y: &mut [T]);
+    /// The lower triangular root of the covariance.
+    fn factor<T: Real>(&self, y: &[T], factor: &mut [T]) -> Result<(), Fault>;
+    /// The covariance, n × n, of which `factor` is the root.
+    fn covariance<T: Real>(&self, y: &[T], factor: &[T], cov: &mut [T]);
+    /// X, n × n; empty if it is not carried.
+    fn carried<'y, T>(&self, y: &'y [T]) -> &'y [T];
+}
+
+/// Nodes and weights of Gauss's quadrature over [0, 1], exact to degree 5.
+const NODES: [(f64, f64); 3] =
+    [(0.112_701_665_379_258_31, 5.0 / 18.0), (0.5, 8.0 / 18.0), (0.887_298_334_620_741_7, 5.0 / 18.0)];
+
+/// Scalars of scratch of [`integrate`], for a table of length `table`.
+pub(super) fn integrate_scratch(
+    integrator: &Integrator,
+    lengths: Lengths,
+    sizes: Sizes,
+    table: usize,
+) -> usize {
+    let Sizes { states: n, process_noise: columns, controls, parameters, .. } = sizes;
+    let solver = integrator.scratch(lengths.state, lengths.system, controls + parameters, table);
+    lengths.state + n * n + solver + conditional_scratch(n, columns, lengths)
+}
+
+/// The lengths of a [`Carrier`].
+#[derive(Clone, Copy)]
+pub(super) struct Lengths {
+    /// Of its state.
+    pub state: usize,
+    /// Of the scratch of its derivative.
+    pub system: usize,
+    /// Of the scratch of its image.
+    pub image: usize,
+}
+
+/// Moves `belief` over the gap of `given.at`.
+#[inline(always)]
+pub(super) fn integrate<T: Real, C: Carrier, F: Form, M, R>(
+    integrator: &Integrator,
+    carrier: &C,
+    given: &Given<T, M, R>,
+    belief: &mut Belief<T>,
+    mut back: Option<&mut Backward<T>>,
+    work: &mut Work,
+    mut scratch: &mut [T],
+) -> Result<T::Mask, Stopped> {
+    let n = belief.mean.len();
+    let (at, table) = (&given.at, given.table);
+    let y = take(&mut scratch, carrier.len());
+    let next = take(&mut scratch, n * n);
+    carrier.begin(belief, y);
+    let stopped = |stop: Stop<Fault>| Stopped { reached: Some(stop.time), fault: fault(&stop, n) };
+    let mut sick = T::Mask::splat(false);
+    match &mut back {
+        Some(back) if F::SQUARE_ROOT => {
+            back.conditional.fill(T::zero());
+            let (plus, minus) = carrier.image().noises();
+            let lengths =
+                Lengths { state: carrier.len(), system: carrier.scratch(), image: carrier.image().scratch() };
+            let (own, rest) = scratch.split_at_mut(conditional_scratch(n, plus + minus, lengths));
+            let mut failed = None;
+            let gather = |segment: &Segment<T>| match conditional(
+                carrier,
+                at,
+                table,
+                belief.factor,
+                segment,
+                back.conditional,
+                own,
+            ) {
+                Ok(mask) => sick = sick | mask,
+                Err(fault) => failed = failed.or(Some(Stopped { reached: Some(segment.t), fault })),
+            };
+            integrator.solve(carrier, at, table, y, work, gather, rest).map_err(stopped)?;
+            failed.map_or(Ok(()), Err)?;
+        }
+        _ => integrator.advance(carrier, at, table, y, work, scratch).map_err(stopped)?,
+    }
+    carrier.factor(y, next)?;
+    if let Some(back) = back {
+        // G = S₀ Xᵀ (P⁻)⁻¹
+        gain_of_covariance(carrier.carried(y), n, belief.factor, next, back);
+    }
+    belief.mean.copy_from_slice(&y[..n]);
+    if !F::SQUARE_ROOT {
+        carrier.covariance(y, next, belief.cov);
+    }
+    belief.factor.copy_from_slice(next);
+    Ok(sick)
+}
+
+/// A solver's end in the words of a step.
+fn fault(stop: &Stop<Fault>, states: usize) -> Fault {
+    let halt = |why| Fault::Solver { why, smallest: stop.smallest };
+    match stop.why {
+        Why::System(fault) => fault,
+        Why::NotFinite { component } if component < states => {
+            Fault::NotFinite { quantity: Quantity::Drift, component }
+        }
+        Why::NotFinite { .. } => Fault::NotPositive { matrix: Matrix::Predicted, pivot: 0 },
+        Why::StepLimit { limit } => halt(Halt::StepLimit { limit }),
+        Why::StepTooSmall => halt(Halt::StepTooSmall),
+    }
+}
+
+const fn conditional_scratch(n: usize, columns: usize, lengths: Lengths) -> usize {
+    lengths.state + 2 * n * n + n * columns + n * (n + columns) + 2 * n + lengths.image
+}
+
+/// Adds to D what a step leaves unknown of the state at the start of the gap: D Dᵀ = ∫ Γ N J Nᵀ Γᵀ dt along the way, Γ =
+/// S₀ Xᵀ P⁻¹ the gain up to there. Weights and columns are positive: no difference is taken (docs/algorithms.md C14).
+#[inline(always)]
+fn conditional<T: Real, C: Carrier>(
+    carrier: &C,
+    at: &At<T>,
+    table: &[T],
+    start: &[T],
+    segment: &Segment<T>,
+    root: &mut [T],
+    mut scratch: &mut [T],
+) -> Result<T::Mask, Fault> {
+    let image = carrier.image();
+    let n = image.states();
+    let (plus, minus) = image.noises();
+    let columns = plus + minus;
+    let y = take(&mut scratch, carrier.len());
+    let s = take(&mut scratch, n * n);
+    let k = take(&mut scratch, n * n);
+    let noise = take(&mut scratch, n * columns);
+    let stride = n + plus;
+    let wide = take(&mut scratch, n * stride);
+    let column = take(&mut scratch, n);
+    let seen = take(&mut scratch, n);
+    let mut health = Health::good();
+    for (theta, weight) in NODES {
+        segment.at(theta, y);
+        carrier.factor(y, s)?;
+        let at = At { t: T::of(segment.t + theta * segment.h), dt: T::zero(), ..*at };
+        image.noise(&at, table, &y[..n], s, noise, scratch)?;
+        // K = S⁻¹ X, stored column by column
+        for j in 0..n {
+            let row = &mut k[j * n..(j + 1) * n];
+            gather(carrier.carried(y), n, j, row);
+            solve_lower(s, n, row);
+        }
+        put_columns(wide, stride, 0, root, n);
+        let length = T::of(weight * segment.h).sqrt();
+        for j in 0..columns {
+            gather(noise, columns, j, column);
+            solve_lower(s, n, column);
+            for (seen, k) in seen.iter_mut().zip(k.chunks_exact(n)) {
+                *seen = length * super::moments::dot(k, column);
+            }
+            for i in 0..n {
+                let x = super::moments::dot(&start[i * n..(i + 1) * n], seen);
+                if j < plus {
+                    wide[i * stride + n + j] = x;
+                } else {
+                    noise[i * columns + j] = x;
+                }
+            }
+        }
+        health = health.and(tria(wide, n, stride, stride));
+        for j in plus..columns {
+            gather(noise, columns, j, column);
+            health = health.and(downdate(wide, n, stride, column));
+        }
+        copy_lower(root, n, wide, stride);
+    }
+    super::lanes(health, Matrix::Conditional)
+}

@@ -1,0 +1,134 @@
+//! The Itô–Taylor step of order 1.5: the drift expanded, the rule over the expansion (2010 eq 25–27; 2012 eq 12).
+
+use super::continuous::{Continuous, check_steps};
+use super::gain::Backward;
+use super::noise::{Stacked, check_spread, diffusion_rate, finish, rate_scratch, stacked_scratch};
+use super::transition::larger;
+use super::{Given, Plan, Stopped, TimeUpdate};
+use crate::filter::error::Fault;
+use crate::filter::form::{Belief, Form};
+use crate::filter::memory::take;
+use crate::filter::start::Sizes;
+use crate::model::{At, Expanded, Map, Sde};
+use crate::ode::{Steps, Work};
+use crate::rule::{Rule, Shape, Spread};
+use crate::scalar::Real;
+
+/// How Lf enters the noise of a step.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Variant {
+    /// Its expectations, by the rule (2012 eq 12).
+    Full,
+    /// Its value at the mean (2010 eq 25, 27).
+    #[default]
+    Simplified,
+    /// The same, once for the whole gap, the points carried through all steps without noise: what the 2010 paper's own
+    /// program did. It does not converge to the true covariance.
+    NoiseOnce,
+}
+
+/// `ito-taylor`: x + δ f + (δ²/2) L₀f + G w + (Lf) y by the rule (docs/algorithms.md C4–C7).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ItoTaylor {
+    /// How Lf enters the noise.
+    pub variant: Variant,
+    /// How a gap is divided.
+    pub steps: Steps,
+}
+
+impl ItoTaylor {
+    fn map<'m, M>(&self, model: &'m M, times: usize) -> Expanded<'m, M> {
+        Expanded { model, times, noise: self.variant == Variant::Full }
+    }
+}
+
+impl<M: Sde> TimeUpdate<M> for ItoTaylor {
+    fn check(&self, model: &M) -> Result<(), Fault> {
+        check_steps(self.steps)?;
+        Continuous(model).additive()
+    }
+
+    fn states(&self, model: &M) -> usize {
+        model.states()
+    }
+
+    fn sizes(&self, model: &M, shape: Shape) -> Sizes {
+        let at_the_mean = Expanded { model, times: 1, noise: true }.scratch(1);
+        Continuous(model).sizes(self.map(model, 1).scratch(shape.points).max(at_the_mean))
+    }
+
+    fn parameters<'m>(&self, model: &'m M) -> &'m [f64] {
+        model.parameters()
+    }
+
+    fn scratch(&self, sizes: Sizes, shape: Shape, smoothing: bool) -> usize {
+        let Sizes { states: n, process_noise: q, controls, parameters, .. } = sizes;
+        let outputs = if self.variant == Variant::Full { n * (1 + q) } else { n };
+        let beside = larger(rate_scratch(n, q, controls + parameters), n + sizes.model);
+        3 * n * q + larger(stacked_scratch(n, q, 2 * q, outputs, shape, sizes.model, smoothing), beside)
+    }
+
+    fn plan(&self, _: &M, from: f64, to: f64) -> Result<Plan, Fault> {
+        let gap = to - from;
+        Ok(match self.variant {
+            Variant::NoiseOnce => Plan::whole(gap),
+            _ => Plan::of(self.steps, gap),
+        })
+    }
+
+    #[inline(always)]
+    fn step<T: Real, R: Rule, F: Form>(
+        &self,
+        given: &Given<T, M, R>,
+        belief: &mut Belief<T>,
+        back: Option<&mut Backward<T>>,
+        _: &mut Work,
+        mut scratch: &mut [T],
+    ) -> Result<T::Mask, Stopped> {
+        let Given { rule, table, model, ref at } = *given;
+        let (n, q, shape) = (belief.mean.len(), model.noises(), rule.shape(belief.mean.len()));
+        let full = self.variant == Variant::Full;
+        let g = take(&mut scratch, n * q);
+        let rate = take(&mut scratch, n * q);
+        let lf = take(&mut scratch, n * q);
+        diffusion_rate(model, at, belief.mean, g, rate, scratch)?;
+        if !full {
+            // Lf at the mean from which the step starts: 2021 eq 8 prints the one it ends in
+            let (f, rest) = scratch.split_at_mut(n);
+            let (l0, rest) = rest.split_at_mut(n);
+            model.expansion_points(at, 1, belief.mean, f, l0, lf, rest);
+        }
+        let count = match self.variant {
+            Variant::NoiseOnce => Plan::of(self.steps, at.dt.first()).count,
+            _ => 1,
+        };
+        let map = self.map(model, count);
+        let (outputs, stride) = (map.outputs(), n + shape.plus);
+        let mean = take(&mut scratch, outputs);
+        let dev = take(&mut scratch, outputs * stride);
+        let minus = take(&mut scratch, outputs * shape.minus);
+        let noise = take(&mut scratch, 2 * n * q);
+        let mut spread = Spread { mean, dev, stride, minus };
+        let each = At { dt: at.dt / T::of(count as f64), ..*at };
+        rule.spread(table, &map, &each, belief.mean, belief.factor, &mut spread, scratch);
+        check_spread(&spread, n, q, shape.points)?;
+        if full {
+            lf.copy_from_slice(&spread.mean[n..]);
+        }
+        let delta = at.dt;
+        let root = delta.sqrt();
+        let (half, twelfth) = (T::of(0.5) * delta, root * delta * T::of(12.0f64.sqrt().recip()));
+        for i in 0..n {
+            let (one, two) = noise[2 * i * q..2 * (i + 1) * q].split_at_mut(q);
+            for j in 0..q {
+                let (g, lf, rate) = (g[i * q + j], lf[i * q + j], rate[i * q + j]);
+                one[j] = root * half.mul_add(lf + rate, g);
+                two[j] = twelfth * (lf - rate);
+            }
+        }
+        let entries = full.then_some(root * delta * T::of(3.0f64.sqrt().recip()));
+        let (lost, rounding) = (shape.minus, rule.rounding(n));
+        let stacked = Stacked { spread, entries, q, noise, known: 2 * q, lost, rounding };
+        Ok(finish::<T, F>(stacked, belief, back, scratch)?)
+    }
+}

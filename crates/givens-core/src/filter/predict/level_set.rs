@@ -1,0 +1,95 @@
+//! The level-set time update (2021), with a root that is free to turn or held triangular.
+
+use super::continuous::Continuous;
+use super::front::{Front, front_len, front_scratch};
+use super::gain::Backward;
+use super::integrate::{Lengths, integrate, integrate_scratch};
+use super::moments::{Moments, moments_len, moments_scratch};
+use super::velocity::{ByVelocity, Velocity, by_velocity_scratch};
+use super::{Given, Plan, Stopped, TimeUpdate};
+use crate::filter::error::Fault;
+use crate::filter::form::{Belief, Form};
+use crate::filter::start::Sizes;
+use crate::model::Sde;
+use crate::ode::{Integrator, Work};
+use crate::rule::{Rule, Shape};
+use crate::scalar::Real;
+
+/// What becomes of the root of the covariance between two measurements.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Gauge {
+    /// It fills up, and is triangularised at the end.
+    #[default]
+    Free,
+    /// It stays triangular throughout.
+    Triangular,
+}
+
+/// `level-set`: the points x̄ ± M move with the drift (docs/algorithms.md C11, C12). The rule serves the measurement
+/// update alone.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LevelSet {
+    /// What moves mean and root.
+    pub velocity: Velocity,
+    /// What becomes of the root.
+    pub gauge: Gauge,
+    /// The solver.
+    pub integrator: Integrator,
+}
+
+impl<M: Sde> TimeUpdate<M> for LevelSet {
+    fn check(&self, model: &M) -> Result<(), Fault> {
+        self.integrator.check().map_err(Fault::Option)?;
+        Continuous(model).additive()
+    }
+
+    fn states(&self, model: &M) -> usize {
+        model.states()
+    }
+
+    fn sizes(&self, model: &M, _: Shape) -> Sizes {
+        Continuous(model).sizes(by_velocity_scratch(model, self.velocity))
+    }
+
+    fn parameters<'m>(&self, model: &'m M) -> &'m [f64] {
+        model.parameters()
+    }
+
+    fn scratch(&self, sizes: Sizes, shape: Shape, smoothing: bool) -> usize {
+        let Sizes { states: n, process_noise: q, model: image, .. } = sizes;
+        let of = |state, system| {
+            integrate_scratch(&self.integrator, Lengths { state, system, image }, sizes, shape.table)
+        };
+        match self.gauge {
+            Gauge::Free => of(front_len(n, smoothing), front_scratch(n, q, image)),
+            Gauge::Triangular => of(moments_len(n, smoothing), moments_scratch(n, q, image)),
+        }
+    }
+
+    fn plan(&self, _: &M, from: f64, to: f64) -> Result<Plan, Fault> {
+        Ok(Plan::whole(to - from))
+    }
+
+    #[inline(always)]
+    fn step<T: Real, R: Rule, F: Form>(
+        &self,
+        given: &Given<T, M, R>,
+        belief: &mut Belief<T>,
+        back: Option<&mut Backward<T>>,
+        work: &mut Work,
+        scratch: &mut [T],
+    ) -> Result<T::Mask, Stopped> {
+        let image = ByVelocity { model: given.model, velocity: self.velocity };
+        let carried = back.is_some();
+        match self.gauge {
+            Gauge::Free => {
+                let front = Front { image, carried };
+                integrate::<T, _, F, _, _>(&self.integrator, &front, given, belief, back, work, scratch)
+            }
+            Gauge::Triangular => {
+                let moments = Moments { image, square_root: true, carried };
+                integrate::<T, _, F, _, _>(&self.integrator, &moments, given, belief, back, work, scratch)
+            }
+        }
+    }
+}

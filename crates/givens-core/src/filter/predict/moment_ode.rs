@@ -1,0 +1,71 @@
+//! The moment differential equations (2012 §2.2; Särkkä 2007), in covariance and in square-root form.
+
+use super::continuous::Continuous;
+use super::gain::Backward;
+use super::image::{ByRule, by_rule_noises, by_rule_scratch};
+use super::integrate::{Lengths, integrate, integrate_scratch};
+use super::moments::{Moments, moments_len, moments_scratch};
+use super::{Given, Plan, Stopped, TimeUpdate};
+use crate::filter::error::Fault;
+use crate::filter::form::{Belief, Form};
+use crate::filter::start::Sizes;
+use crate::model::Sde;
+use crate::ode::{Integrator, Work};
+use crate::rule::{Rule, Shape};
+use crate::scalar::Real;
+
+/// `moment-ode`: dm/dt = E\[f\], dP/dt = Cov\[x, f\] + Cov\[f, x\] + E\[G Gᵀ\], expectations by the rule at every stage of
+/// the solver (docs/algorithms.md C9, C10). G may depend on the state.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct MomentOde {
+    /// The solver.
+    pub integrator: Integrator,
+}
+
+impl<M: Sde> TimeUpdate<M> for MomentOde {
+    fn check(&self, _: &M) -> Result<(), Fault> {
+        self.integrator.check().map_err(Fault::Option)
+    }
+
+    fn states(&self, model: &M) -> usize {
+        model.states()
+    }
+
+    fn sizes(&self, model: &M, shape: Shape) -> Sizes {
+        let image = by_rule_scratch(model, shape);
+        let (plus, minus) = by_rule_noises(model, shape);
+        Sizes { process_noise: plus + minus, ..Continuous(model).sizes(image) }
+    }
+
+    fn parameters<'m>(&self, model: &'m M) -> &'m [f64] {
+        model.parameters()
+    }
+
+    fn scratch(&self, sizes: Sizes, shape: Shape, smoothing: bool) -> usize {
+        let n = sizes.states;
+        let lengths = Lengths {
+            state: moments_len(n, smoothing),
+            system: moments_scratch(n, sizes.process_noise, sizes.model),
+            image: sizes.model,
+        };
+        integrate_scratch(&self.integrator, lengths, sizes, shape.table)
+    }
+
+    fn plan(&self, _: &M, from: f64, to: f64) -> Result<Plan, Fault> {
+        Ok(Plan::whole(to - from))
+    }
+
+    #[inline(always)]
+    fn step<T: Real, R: Rule, F: Form>(
+        &self,
+        given: &Given<T, M, R>,
+        belief: &mut Belief<T>,
+        back: Option<&mut Backward<T>>,
+        work: &mut Work,
+        scratch: &mut [T],
+    ) -> Result<T::Mask, Stopped> {
+        let image = ByRule { model: given.model, rule: given.rule };
+        let moments = Moments { image, square_root: F::SQUARE_ROOT, carried: back.is_some() };
+        integrate::<T, _, F, _, _>(&self.integrator, &moments, given, belief, back, work, scratch)
+    }
+}

@@ -10,7 +10,7 @@ use crate::rule::{Rule, Shape, Spread};
 use crate::scalar::{Mask, Real};
 
 /// Z = [D E S_R] and the negative columns, rows of the present components only.
-pub(super) struct Sensed<'a, T> {
+pub(super) struct Sensed<'a, T: Real> {
     /// Number of components present.
     pub d: usize,
     /// d rows of length `stride`: D (n columns), E, S_R.
@@ -19,6 +19,9 @@ pub(super) struct Sensed<'a, T> {
     /// d rows of length `lost`.
     pub minus: &'a [T],
     pub lost: usize,
+    /// The lanes in which a component has no more noise than the rounding of its images: the update may then leave mere
+    /// rounding of a state.
+    pub exact: T::Mask,
 }
 
 impl<T> Measurement<'_, T> {
@@ -71,7 +74,7 @@ pub(super) fn sense<'a, T: Real, H: Observation, R: Rule>(
     rule.spread(table, &SensedMap(h), at, belief.mean, belief.factor, &mut spread, scratch);
     let sick = lanes(h.noise_root(at, root), Matrix::MeasurementNoise)?;
 
-    let mut d = 0;
+    let (mut d, mut exact) = (0, T::Mask::splat(false));
     for i in 0..all {
         if measurement.present.is_some_and(|present| !present[i]) {
             continue;
@@ -85,9 +88,11 @@ pub(super) fn sense<'a, T: Real, H: Observation, R: Rule>(
             return bad(if derived { Quantity::ObservationDerivative } else { Quantity::Observation });
         }
         let noise = &root[i * r..(i + 1) * r];
-        if (!noise.iter().fold(T::zero(), |sum, &x| sum + x.abs()).finite()).all() {
+        let deviation = noise.iter().fold(T::zero(), |sum, &x| sum + x.abs());
+        if (!deviation.finite()).all() {
             return bad(Quantity::MeasurementNoise);
         }
+        exact = exact | deviation.le(T::of(64.0 * T::EPSILON) * size);
         if (!measurement.z[i].finite()).all() {
             return bad(Quantity::Measurement);
         }
@@ -101,5 +106,5 @@ pub(super) fn sense<'a, T: Real, H: Observation, R: Rule>(
         mean[d] = wrapped(mean[i]);
         d += 1;
     }
-    Ok((Sensed { d, dev, stride, minus, lost: shape.minus }, sick))
+    Ok((Sensed { d, dev, stride, minus, lost: shape.minus, exact }, sick))
 }

@@ -113,9 +113,9 @@ impl Layout {
         if !countable(sizes, shape) {
             return Self { sizes, shape, smoothing, moved: false, len: usize::MAX };
         }
-        // mean, factor and covariance; innovation (measured, predicted, ν, factor, white, NIS, log-likelihood); gain and
+        // mean, factor, covariance, and the rounding in the factor; innovation (measured, predicted, ν, factor, white, NIS, log-likelihood); gain and
         // conditional root, twice where a gap of several steps is chained
-        let belief = n + 2 * n * n;
+        let belief = 2 * n + 2 * n * n;
         let innovation = 4 * d + d * d + 2;
         let back = if smoothing { 4 * n * n } else { 0 };
         let kept = shape.table + sizes.controls + sizes.parameters + belief + innovation + back;

@@ -49,6 +49,8 @@ pub(super) struct Parts<'a, T> {
     pub table: &'a mut [T],
     pub u: &'a mut [T],
     pub p: &'a mut [T],
+    /// What of each standard deviation may be rounding that an update without noise has left, length n.
+    pub floor: &'a mut [T],
     pub belief: Belief<'a, T>,
     pub total: Backward<'a, T>,
     pub later: Backward<'a, T>,
@@ -73,6 +75,7 @@ pub(super) fn parts<'a, T, F: Form>(layout: &Layout, mut memory: &'a mut [T]) ->
         table: take(m, layout.shape.table),
         u: take(m, layout.sizes.controls),
         p: take(m, layout.sizes.parameters),
+        floor: take(m, n),
         belief: Belief {
             mean: take(m, n),
             factor: take(m, n * n),
@@ -161,6 +164,7 @@ impl<'m, X: Over<M>, M, T: Real, B: AsMut<[T]>> Filter<'m, X, M, T, B> {
         }
         let arrays = parts::<T, X::Form>(&layout, memory.as_mut());
         method.rule().tabulate(n, arrays.table);
+        arrays.floor.fill(T::zero());
         for (to, from) in [
             (arrays.p, time_update.parameters(model)),
             (arrays.belief.mean, prior.mean),
@@ -239,10 +243,11 @@ fn set<T: Real>(to: &mut [T], from: &[f64], of: &'static str, quantity: Quantity
 
 /// What the filter knows.
 impl<X: Method, M, T: Real, B: AsRef<[T]>> Filter<'_, X, M, T, B> {
-    /// Where an array that stands `skip` scalars behind the parameters begins.
+    /// Where an array that stands `skip` scalars behind the belief's beginning stands.
     fn array(&self, skip: usize, len: usize) -> &[T] {
         let Layout { shape, sizes, .. } = self.layout;
-        let at = self.layout.moved_len() + shape.table + sizes.controls + sizes.parameters + skip;
+        let before = self.layout.moved_len() + shape.table + sizes.controls + sizes.parameters + sizes.states;
+        let at = before + skip;
         &self.memory.as_ref()[at..at + len]
     }
 

@@ -11,7 +11,7 @@ use crate::rule::{Rule, Shape, Spread};
 use crate::scalar::{Mask, Real};
 
 /// Z = [D E S_R] and the negative columns, rows of the present components only.
-pub(super) struct Sensed<'a, T> {
+pub(super) struct Sensed<'a, T: Real> {
     /// Number of components present.
     pub d: usize,
     /// d rows of length `stride`: D (n columns), E, S_R.
@@ -20,6 +20,9 @@ pub(super) struct Sensed<'a, T> {
     /// d rows of length `lost`.
     pub minus: &'a [T],
     pub lost: usize,
+    /// The lanes in which a component has no more noise than the rounding of its images: the update may then leave mere
+    /// rounding of a state.
+    pub exact: T::Mask,
 }
 
 impl<T> Measurement<'_, T> {
@@ -74,7 +77,7 @@ pub(super) fn sense<'a, T: Real, H: Observation, R: Rule>(
     rule.spread(table, &SensedMap(h), at, belief.mean, drawn, &mut spread, scratch);
     let sick = lanes(h.noise_root(at, root), Matrix::MeasurementNoise)?;
 
-    let mut d = 0;
+    let (mut d, mut exact) = (0, T::Mask::splat(false));
     for i in 0..all {
         if measurement.present.is_some_and(|present| !present[i]) {
             continue;
@@ -88,9 +91,11 @@ pub(super) fn sense<'a, T: Real, H: Observation, R: Rule>(
             return bad(if derived { Quantity::ObservationDerivative } else { Quantity::Observation });
         }
         let noise = &root[i * r..(i + 1) * r];
-        if (!noise.iter().fold(T::zero(), |sum, &x| sum + x.abs()).finite()).all() {
+        let deviation = noise.iter().fold(T::zero(), |sum, &x| sum + x.abs());
+        if (!deviation.finite()).all() {
             return bad(Quantity::MeasurementNoise);
         }
+        exact = exact | deviation.le(T::of(64.0 * T::EPSILON) * size);
         if (!measurement.z[i].finite()).all() {
             return bad(Quantity::Measurement);
         }
@@ -107,7 +112,7 @@ pub(super) fn sense<'a, T: Real, H: Observation, R: Rule>(
     if moved {
         turn(belief.moved, dev, d, stride, scratch);
     }
-    Ok((Sensed { d, dev, stride, minus, lost: shape.minus }, sick))
+    Ok((Sensed { d, dev, stride, minus, lost: shape.minus, exact }, sick))
 }
 
 /// [M; D] Q = [S; D Q] with S lower triangular: D from the coordinates of M to those of S.

@@ -2,9 +2,9 @@
 
 use super::entry::{ENTRIES, Entry, find};
 use super::setting::SettingError;
-use super::words::{FormName, GAUGES, Kind, RuleName, TimeName, VARIANTS, VELOCITIES, word_of};
+use super::words::{FormName, GAUGES, Kind, ROOTS, RuleName, TimeName, VARIANTS, VELOCITIES, word_of};
 use crate::filter::Block;
-use crate::filter::predict::{Gauge, Variant, Velocity};
+use crate::filter::predict::{Gauge, Root, Variant, Velocity};
 use crate::ode::{Integrator, Steps};
 use crate::rule::{CentralDifference, GaussHermite, Unscented};
 use crate::scalar::Shown;
@@ -26,6 +26,8 @@ pub struct Choice {
     pub variant: Variant,
     /// What becomes of the root of a level set between measurements.
     pub gauge: Gauge,
+    /// The root of a level set that the measurement update draws its points from.
+    pub root: Root,
     /// What moves a level set.
     pub velocity: Velocity,
     /// The solver, its steps and its tolerance; the steps are those of the other time updates too.
@@ -86,6 +88,7 @@ impl Choice {
             TimeName::LevelSet => {
                 all.push(("velocity", word_of(VELOCITIES, self.velocity).to_owned()));
                 all.push(("gauge", word_of(GAUGES, self.gauge).to_owned()));
+                all.push(("root", word_of(ROOTS, self.root).to_owned()));
             }
             TimeName::EulerMaruyama | TimeName::MomentOde => {}
         }

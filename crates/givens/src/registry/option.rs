@@ -116,6 +116,7 @@ pub const OPTIONS: &[OptionInfo] = &[
         "how Lf enters the noise: full | simplified | noise-once",
     ),
     option("gauge", Reader::Time(TimeName::LevelSet), "the root between measurements: free | triangular"),
+    option("root", Reader::Time(TimeName::LevelSet), "the root whose points the update draws: lower | moved"),
     option(
         "velocity",
         Reader::Time(TimeName::LevelSet),

@@ -4,9 +4,11 @@ use super::choice::Choice;
 use super::entry::{Entry, find, names};
 use super::option::OPTIONS;
 use super::setting::{Setting, SettingError, Value};
-use super::words::{FormName, GAUGES, RuleName, SOLVERS, TimeName, UPDATES, VARIANTS, VELOCITIES, Words};
+use super::words::{
+    FormName, GAUGES, ROOTS, RuleName, SOLVERS, TimeName, UPDATES, VARIANTS, VELOCITIES, Words,
+};
 use crate::filter::Block;
-use crate::filter::predict::{Gauge, Velocity};
+use crate::filter::predict::{Gauge, Root, Velocity};
 use crate::ode::{Integrator, Steps};
 use crate::rule::{CentralDifference, GaussHermite, Unscented};
 use crate::scalar::Shown;
@@ -60,6 +62,7 @@ fn preset(entry: &Entry) -> Choice {
         time_update: entry.time_update,
         variant: entry.variant,
         gauge: Gauge::default(),
+        root: Root::default(),
         velocity: Velocity::default(),
         integrator: Integrator::default(),
         unscented: Unscented::default(),
@@ -77,6 +80,7 @@ fn part(choice: &mut Choice, at: usize, setting: &Setting) -> Result<(), Setting
         "update" => choice.block = among(at, setting, UPDATES)?,
         "variant" => choice.variant = among(at, setting, VARIANTS)?,
         "gauge" => choice.gauge = among(at, setting, GAUGES)?,
+        "root" => choice.root = among(at, setting, ROOTS)?,
         "velocity" => choice.velocity = among(at, setting, VELOCITIES)?,
         "solver" => choice.integrator.solver = among(at, setting, SOLVERS)?,
         _ => {}

@@ -58,6 +58,7 @@ impl Choice {
             TimeName::LevelSet => Some(AnyTime::LevelSet(LevelSet {
                 velocity: self.velocity,
                 gauge: self.gauge,
+                root: self.root,
                 integrator: self.integrator,
             })),
         }

@@ -59,6 +59,10 @@ impl<M: Sde> TimeUpdate<M> for AnyTime {
         each!(self, time => time.plan(model, from, to))
     }
 
+    fn moves_root(&self) -> bool {
+        each!(self, time => TimeUpdate::<M>::moves_root(time))
+    }
+
     fn step<T: Real, R: Rule, F: Form>(
         &self,
         given: &Given<T, M, R>,

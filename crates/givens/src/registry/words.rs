@@ -1,7 +1,7 @@
 //! The words by which parts are known.
 
 use crate::filter::Block;
-use crate::filter::predict::{Gauge, Variant, Velocity};
+use crate::filter::predict::{Gauge, Root, Variant, Velocity};
 use crate::ode::Solver;
 
 macro_rules! words {
@@ -107,6 +107,8 @@ pub(super) const VARIANTS: Words<Variant> =
     &[("full", Variant::Full), ("simplified", Variant::Simplified), ("noise-once", Variant::NoiseOnce)];
 
 pub(super) const GAUGES: Words<Gauge> = &[("free", Gauge::Free), ("triangular", Gauge::Triangular)];
+
+pub(super) const ROOTS: Words<Root> = &[("lower", Root::Lower), ("moved", Root::Moved)];
 
 pub(super) const VELOCITIES: Words<Velocity> = &[
     ("standard", Velocity::Standard),

@@ -4,6 +4,7 @@
 #![allow(clippy::needless_update)] // some methods have no option beside `update`
 
 mod continuous;
+mod continuous_types;
 mod distinct;
 mod equivalences;
 mod faults;

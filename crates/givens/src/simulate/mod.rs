@@ -46,7 +46,7 @@ pub fn simulate<'a, M: Transition, H: Observation>(
 /// let prior = Gaussian::from_std(&[1000.0, 0.0, 2650.0, 150.0, 200.0, 0.0, 0.1], &[0.0; 7])?;
 /// let stream = &mut Stream::new(1, 0, 0);
 /// let drawn = simulate_continuous(
-///     &Turn3d::default(), &Radar3d::published(), times.rows(), 0.0, &prior, &Paths::default(), stream,
+///     &Turn3d::default(), &Radar3d::default(), times.rows(), 0.0, &prior, &Paths::default(), stream,
 /// )?;
 /// assert_eq!((drawn.states.len(), drawn.z.len()), (21, 9));
 /// # Ok::<(), Box<dyn std::error::Error>>(())

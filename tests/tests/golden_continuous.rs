@@ -191,7 +191,8 @@ fn ten_measurements_agree_for_every_filter_and_fail_where_it_must() {
             for ((mean, cov), expected) in answers.iter().zip(means.chunks_exact(7)) {
                 worst.0 = worst.0.max(mean_error(mean, expected, cov));
             }
-            worst.1 = cov_error(&answers[0].1, &first, 7).max(cov_error(&answers[answers.len() - 1].1, &last, 7));
+            worst.1 =
+                cov_error(&answers[0].1, &first, 7).max(cov_error(&answers[answers.len() - 1].1, &last, 7));
             println!("{name}: mean {:.1e} cov {:.1e}", worst.0, worst.1);
             assert!(worst.0 < tolerance(name) && worst.1 < tolerance(name), "{name}: {worst:?}");
         }

@@ -1,6 +1,7 @@
 //! Models of run time: what filters take, made of expressions.
 
 mod error;
+mod expansion;
 mod frame;
 mod jacobian;
 mod observation;

@@ -1,0 +1,116 @@
+//! The drift and its Itô derivatives in one program.
+
+use givens_core::scalar::Real;
+
+use crate::graph::{Graph, GraphError, Input, Node};
+use crate::program::{Inputs, Program};
+
+/// f, L₀f and Lf = J G, derived by symbol; what vanishes in them is not computed.
+#[derive(Clone, Debug)]
+pub(super) struct Expansion {
+    program: Program,
+    states: usize,
+}
+
+impl Expansion {
+    /// L₀f = ∂f/∂t + Σ_p f_p ∂f/∂x_p + ½ Σ_pr (G Gᵀ)_pr ∂²f/∂x_p∂x_r; G, n × `noises`, does not depend on the state.
+    pub fn new(
+        graph: &mut Graph,
+        drift: &[Node],
+        diffusion: &[Node],
+        noises: usize,
+    ) -> Result<Self, GraphError> {
+        let n = drift.len();
+        let mut l0 = graph.derivatives(drift, Input::Time)?;
+        let zero = graph.constant(0.0);
+        let mut lf = vec![zero; n * noises];
+        for (p, &velocity) in drift.iter().enumerate() {
+            let slopes = graph.derivatives(drift, Input::State(p as u32))?;
+            let row = &diffusion[p * noises..][..noises];
+            let blown: Vec<usize> = (0..noises).filter(|&j| !is_zero(graph, row[j])).collect();
+            for (i, &slope) in slopes.iter().enumerate().filter(|(_, slope)| **slope != zero) {
+                l0[i] = plus(graph, l0[i], velocity, slope);
+                for &j in &blown {
+                    lf[i * noises + j] = plus(graph, lf[i * noises + j], row[j], slope);
+                }
+            }
+            bend(graph, &mut l0, &slopes, p, diffusion, noises)?;
+        }
+        let outputs = [drift, &l0, &lf].concat();
+        Ok(Self { program: Program::compile(graph, &outputs)?, states: n })
+    }
+
+    /// Scalars of scratch for `points` points.
+    pub fn scratch_len(&self, points: usize) -> usize {
+        self.program.outputs() * points + self.program.scratch_len(points)
+    }
+
+    /// All points at once, component by component.
+    pub fn points<T: Real>(
+        &self,
+        inputs: &Inputs<'_, T>,
+        points: usize,
+        [f, l0, lf]: [&mut [T]; 3],
+        scratch: &mut [T],
+    ) {
+        let (results, scratch) = scratch.split_at_mut(self.program.outputs() * points);
+        self.program.eval(inputs, points, results, scratch);
+        let all = self.states * points;
+        f[..all].copy_from_slice(&results[..all]);
+        l0[..all].copy_from_slice(&results[all..2 * all]);
+        lf[..results.len() - 2 * all].copy_from_slice(&results[2 * all..]);
+    }
+}
+
+/// Adds to L₀f the second derivatives along x_p and x_r for r ≤ p, from the slopes along x_p.
+fn bend(
+    graph: &mut Graph,
+    l0: &mut [Node],
+    slopes: &[Node],
+    p: usize,
+    diffusion: &[Node],
+    noises: usize,
+) -> Result<(), GraphError> {
+    let inputs = graph.inputs_of_all(slopes);
+    for r in 0..=p {
+        let along = Input::State(r as u32);
+        if !inputs.contains(&along) {
+            continue;
+        }
+        // made for the pairs that need it only: for a full G it is the larger part
+        let weight = weight(graph, diffusion, noises, [p, r]);
+        if is_zero(graph, weight) {
+            continue;
+        }
+        for (l0, second) in l0.iter_mut().zip(graph.derivatives(slopes, along)?) {
+            *l0 = plus(graph, *l0, weight, second);
+        }
+    }
+    Ok(())
+}
+
+/// What ∂²f/∂x_p∂x_r counts for: (G Gᵀ)_pr, halved where p = r.
+fn weight(graph: &mut Graph, diffusion: &[Node], noises: usize, [p, r]: [usize; 2]) -> Node {
+    let (zero, half) = (graph.constant(0.0), graph.constant(0.5));
+    let row = |i: usize| &diffusion[i * noises..][..noises];
+    let sum = row(p).iter().zip(row(r)).fold(zero, |sum, (&a, &b)| plus(graph, sum, a, b));
+    if p == r { times(graph, half, sum) } else { sum }
+}
+
+/// sum + a b.
+fn plus(graph: &mut Graph, sum: Node, a: Node, b: Node) -> Node {
+    let product = times(graph, a, b);
+    graph.add(sum, product)
+}
+
+/// a b, and zero where either vanishes for every state.
+fn times(graph: &mut Graph, a: Node, b: Node) -> Node {
+    match [a, b].into_iter().find(|&x| is_zero(graph, x)) {
+        Some(zero) => zero,
+        None => graph.mul(a, b),
+    }
+}
+
+fn is_zero(graph: &Graph, node: Node) -> bool {
+    graph.constant_value(node) == Some(0.0)
+}

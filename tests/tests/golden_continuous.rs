@@ -1,6 +1,8 @@
 //! `golden/continuous.json`: every time update of the papers, alone and within ten measurements, through the library.
 
-use givens::filter::predict::{EulerMaruyama, Gauge, ItoTaylor, LevelSet, MomentOde, Variant, Velocity};
+use givens::filter::predict::{
+    EulerMaruyama, Gauge, ItoTaylor, LevelSet, MomentOde, Root, Variant, Velocity,
+};
 use givens::filter::{Block, Covariance, Filter, Form, Gaussian, Method, Over, SquareRoot, StepError};
 use givens::model::Observation;
 use givens::model::zoo::{Radar3d, Turn3d};
@@ -105,7 +107,13 @@ fn ask<Q: Question>(name: &str, m: usize, question: &Q) -> Vec<Q::Answer> {
                 "AD" => Solver::Dp5,
                 other => panic!("no solver {other}"),
             };
-            let time = LevelSet { velocity, gauge: Gauge::Free, integrator: solver_of(solver, m, 1e-11) };
+            // the golden update draws its points from the root as the step has left it
+            let time = LevelSet {
+                velocity,
+                gauge: Gauge::Free,
+                root: Root::Moved,
+                integrator: solver_of(solver, m, 1e-11),
+            };
             vec![question.ask(parts(Cubature3, time, SquareRoot))]
         }
     }

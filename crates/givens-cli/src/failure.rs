@@ -40,6 +40,11 @@ fn fault(model: &Model, form: Option<FormName>, fault: &Fault) -> String {
             i + 1,
             measure(i)
         ),
+        Fault::Indistinct { component } => format!(
+            "the std of {} is below the spacing of numbers at its mean: the points of the rule cannot be told from each \
+             other; measure it from a nearer origin, or make its std zero if it is known",
+            state(component)
+        ),
         Fault::NotFinite { quantity, component } => match quantity {
             Quantity::TransitionDerivative => format!(
                 "the derivative of the transition of {}, with respect to the state at the mean, is not a finite number; \

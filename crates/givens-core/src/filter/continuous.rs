@@ -2,7 +2,7 @@
 
 use super::form::{Covariance, SquareRoot};
 use super::methods::Method;
-use super::predict::{Gauge, ItoTaylor, LevelSet, MomentOde, Variant, Velocity};
+use super::predict::{Gauge, ItoTaylor, LevelSet, MomentOde, Root, Variant, Velocity};
 use super::update::Block;
 use crate::ode::{Integrator, Solver, Steps, Tolerance};
 use crate::rule::{Cubature3, GaussHermite, Taylor, Unscented};
@@ -187,12 +187,14 @@ method! {
     Lskf: SquareRoot, Cubature3 {}, LevelSet {
         velocity: Velocity = Velocity::Cubature, "What moves mean and root.";
         gauge: Gauge = Gauge::Free, "What becomes of the root between measurements.";
+        root: Root = Root::Lower, "The root that the update draws its points from.";
         solver: Solver = Solver::Dp5, "The solver.";
         rtol: f64 = 1e-6, "What an adaptive solver keeps the error of a step below, in standard deviations.";
         atol: f64 = 0.0, "The same in the states' own units; the sum of both counts."
     } by |m| LevelSet {
         velocity: m.velocity,
         gauge: m.gauge,
+        root: m.root,
         integrator: integrator(m.solver, m.substeps, m.max_step, m.rtol, m.atol),
     }, update
 }

@@ -132,6 +132,12 @@ pub enum Fault {
         /// Which component, from zero.
         component: usize,
     },
+    /// The points of the rule lose more than an eighth of their steps in a component of the state, beside its mean: its
+    /// standard deviation is below the spacing of numbers there.
+    Indistinct {
+        /// Which component, from zero.
+        component: usize,
+    },
     /// A prediction into the past.
     Backwards {
         /// The time asked for.
@@ -199,6 +205,13 @@ impl fmt::Display for Fault {
                     _ => Ok(()),
                 }
             }
+            Fault::Indistinct { component } => write!(
+                f,
+                "the points of component {} of the state cannot be told from its mean: its standard deviation is below \
+                 the spacing of numbers there; measure it from a nearer origin, or make its standard deviation zero if \
+                 it is known",
+                component + 1
+            ),
             Fault::Backwards { to } => write!(f, "cannot predict back to t = {}", Shown(to)),
             Fault::NotWholeSteps { gap, period } => {
                 write!(f, "a gap of {} is not a whole number of steps of {}", Shown(gap), Shown(period))

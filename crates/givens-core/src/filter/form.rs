@@ -31,4 +31,6 @@ pub struct Belief<'a, T> {
     pub factor: &'a mut [T],
     /// P itself, n × n, in covariance form; empty in square-root form.
     pub cov: &'a mut [T],
+    /// Another root of P, n × n, that the measurement update is to draw its points from; empty: `factor`.
+    pub moved: &'a mut [T],
 }

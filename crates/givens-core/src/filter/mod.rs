@@ -1,6 +1,7 @@
 //! Filters: a rule, a time update and a measurement update, stepped through time.
 
 mod continuous;
+mod distinct;
 mod error;
 mod form;
 mod gaussian;

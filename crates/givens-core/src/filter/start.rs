@@ -93,6 +93,8 @@ pub(crate) struct Layout {
     pub shape: Shape,
     /// Whether predictions leave what a smoother needs.
     pub smoothing: bool,
+    /// Whether predictions leave a root of their own for the update.
+    pub moved: bool,
     /// All of the filter's scalars.
     pub len: usize,
 }
@@ -109,16 +111,28 @@ impl Layout {
     pub const fn new(sizes: Sizes, shape: Shape, smoothing: bool, predict: usize) -> Self {
         let Sizes { states: n, measures: d, measurement_noise: r, .. } = sizes;
         if !countable(sizes, shape) {
-            return Self { sizes, shape, smoothing, len: usize::MAX };
+            return Self { sizes, shape, smoothing, moved: false, len: usize::MAX };
         }
-        // mean, factor and covariance; innovation (measured, predicted, ν, factor, white, NIS, log-likelihood); gain and
+        // mean, factor, covariance, and the rounding in the factor; innovation (measured, predicted, ν, factor, white, NIS, log-likelihood); gain and
         // conditional root, twice where a gap of several steps is chained
-        let belief = n + 2 * n * n;
+        let belief = 2 * n + 2 * n * n;
         let innovation = 4 * d + d * d + 2;
         let back = if smoothing { 4 * n * n } else { 0 };
         let kept = shape.table + sizes.controls + sizes.parameters + belief + innovation + back;
         let predict = predict + if smoothing { accumulate_scratch(n) } else { 0 };
         let update = update_scratch(n, d, r, shape, sizes.model);
-        Self { sizes, shape, smoothing, len: kept + if predict > update { predict } else { update } }
+        let work = if predict > update { predict } else { update };
+        Self { sizes, shape, smoothing, moved: false, len: kept + work }
+    }
+
+    /// The same with room for the root that a prediction leaves for the update.
+    pub const fn with_moved_root(self) -> Self {
+        let moved = Self { moved: true, ..self };
+        Self { len: self.len.saturating_add(moved.moved_len()), ..moved }
+    }
+
+    /// Scalars of that root.
+    pub const fn moved_len(&self) -> usize {
+        if self.moved { self.sizes.states * self.sizes.states } else { 0 }
     }
 }

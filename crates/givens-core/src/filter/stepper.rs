@@ -38,6 +38,8 @@ pub struct Filter<'m, X, M, T, B> {
     /// Whether the controls are known: there are none, or they were set.
     pub(super) controlled: bool,
     pub(super) work: Work,
+    /// The last step was a prediction that left a root of its own for the update.
+    pub(super) moved: bool,
     pub(super) memory: B,
     scalar: PhantomData<T>,
 }
@@ -47,6 +49,8 @@ pub(super) struct Parts<'a, T> {
     pub table: &'a mut [T],
     pub u: &'a mut [T],
     pub p: &'a mut [T],
+    /// What of each standard deviation may be rounding that an update without noise has left, length n.
+    pub floor: &'a mut [T],
     pub belief: Belief<'a, T>,
     pub total: Backward<'a, T>,
     pub later: Backward<'a, T>,
@@ -66,14 +70,17 @@ pub(super) fn parts<'a, T, F: Form>(layout: &Layout, mut memory: &'a mut [T]) ->
     let m = &mut memory;
     let square = if layout.smoothing { n * n } else { 0 };
     let root = if F::SQUARE_ROOT { square } else { 0 };
+    let moved = take(m, layout.moved_len());
     Parts {
         table: take(m, layout.shape.table),
         u: take(m, layout.sizes.controls),
         p: take(m, layout.sizes.parameters),
+        floor: take(m, n),
         belief: Belief {
             mean: take(m, n),
             factor: take(m, n * n),
             cov: take(m, if F::SQUARE_ROOT { 0 } else { n * n }),
+            moved,
         },
         total: Backward { gain: take(m, square), conditional: take(m, root) },
         later: Backward { gain: take(m, square), conditional: take(m, root) },
@@ -92,7 +99,8 @@ pub(super) fn layout<X: Over<M>, M>(method: &X, sizes: Sizes, smoothing: bool) -
     let shape = method.rule().shape(sizes.states);
     let predict =
         if countable(sizes, shape) { method.time_update().scratch(sizes, shape, smoothing) } else { 0 };
-    Layout::new(sizes, shape, smoothing, predict)
+    let layout = Layout::new(sizes, shape, smoothing, predict);
+    if method.time_update().moves_root() { layout.with_moved_root() } else { layout }
 }
 
 /// The initial belief of a filter, in plain slices: the mean of length n, the lower-triangular root of the covariance,
@@ -156,6 +164,7 @@ impl<'m, X: Over<M>, M, T: Real, B: AsMut<[T]>> Filter<'m, X, M, T, B> {
         }
         let arrays = parts::<T, X::Form>(&layout, memory.as_mut());
         method.rule().tabulate(n, arrays.table);
+        arrays.floor.fill(T::zero());
         for (to, from) in [
             (arrays.p, time_update.parameters(model)),
             (arrays.belief.mean, prior.mean),
@@ -166,7 +175,19 @@ impl<'m, X: Over<M>, M, T: Real, B: AsMut<[T]>> Filter<'m, X, M, T, B> {
         }
         let (time, scalar, controlled) = (prior.time, PhantomData, sizes.controls == 0);
         let work = Work::default();
-        Ok(Self { method, model, layout, time, step: 0, present: 0, controlled, work, memory, scalar })
+        Ok(Self {
+            method,
+            model,
+            layout,
+            time,
+            step: 0,
+            present: 0,
+            controlled,
+            work,
+            moved: false,
+            memory,
+            scalar,
+        })
     }
 
     /// Scalars of memory that a filter of these sizes needs; `memory` of a method's type is the same as a constant.
@@ -222,9 +243,11 @@ fn set<T: Real>(to: &mut [T], from: &[f64], of: &'static str, quantity: Quantity
 
 /// What the filter knows.
 impl<X: Method, M, T: Real, B: AsRef<[T]>> Filter<'_, X, M, T, B> {
-    /// Where an array that stands `skip` scalars behind the parameters begins.
+    /// Where an array that stands `skip` scalars behind the belief's beginning stands.
     fn array(&self, skip: usize, len: usize) -> &[T] {
-        let at = self.layout.shape.table + self.layout.sizes.controls + self.layout.sizes.parameters + skip;
+        let Layout { shape, sizes, .. } = self.layout;
+        let before = self.layout.moved_len() + shape.table + sizes.controls + sizes.parameters + sizes.states;
+        let at = before + skip;
         &self.memory.as_ref()[at..at + len]
     }
 

@@ -1,12 +1,14 @@
 //! The two steps of a filter: `predict(t)` and `update(sensor, z)`.
 
 use super::Matrix;
+use super::distinct::{distinct, lower, raise};
 use super::error::{Fault, StepError};
 use super::methods::Over;
 use super::predict::{Given, Plan, Stopped, TimeUpdate, accumulate, lanes};
 use super::stepper::{Filter, Parts, layout};
 use super::update::{InnovationMut, Measurement, update};
 use crate::model::{At, Observation};
+use crate::rule::Rule;
 use crate::scalar::Real;
 
 /// Memory that may or may not be made longer.
@@ -77,7 +79,14 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
         let (model, n) = (self.model, self.layout.sizes.states);
         let (smoothing, step) = (self.layout.smoothing, self.step);
         let mut work = self.work;
-        let Parts { table, u, p, mut belief, mut total, mut later, scratch, .. } = self.parts();
+        let Parts { table, u, p, floor, mut belief, mut total, mut later, scratch, .. } = self.parts();
+        if let Some(reach) = rule.reach(n) {
+            distinct(reach, belief.mean, belief.factor, floor).map_err(|fault| StepError {
+                fault,
+                time: t,
+                step,
+            })?;
+        }
         let given = Given { rule: &rule, table, model, at: At { t: T::of(t), dt: T::of(dt), u, p } };
         let back = smoothing.then_some(if chained { &mut later } else { &mut total });
         let done = time_update.step::<T, _, X::Form>(&given, &mut belief, back, &mut work, scratch);
@@ -91,7 +100,11 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
             }
         };
         chain.map_err(|fault| StepError { fault, time: t + dt, step })?;
+        if let Some(reach) = rule.reach(n) {
+            lower(reach, belief.mean, belief.factor, floor);
+        }
         self.work = work;
+        self.moved = self.layout.moved;
         self.time = t + dt;
         Ok(())
     }
@@ -148,13 +161,31 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
             return Err(fail(Fault::ControlsNotSet { controls: self.layout.sizes.controls }));
         }
         self.make_room(sensor).map_err(fail)?;
-        let (rule, block) = (self.method.rule(), self.method.block());
+        let (rule, block, moved) = (self.method.rule(), self.method.block(), self.moved);
         let Parts {
-            table, u, p, mut belief, measured, predicted, nu, factor, white, scores, scratch, ..
+            table,
+            u,
+            p,
+            floor,
+            mut belief,
+            measured,
+            predicted,
+            nu,
+            factor,
+            white,
+            scores,
+            scratch,
+            ..
         } = self.parts();
+        if let Some(reach) = rule.reach(belief.mean.len()) {
+            distinct(reach, belief.mean, belief.factor, floor).map_err(fail)?;
+        }
         let at = At { t: T::of(time), dt: T::zero(), u, p };
         let measured = &mut measured[..d];
         measured.iter_mut().zip(z).for_each(|(to, &z)| *to = T::of(z));
+        if !moved {
+            belief.moved = &mut [];
+        }
         let measurement = Measurement { z: measured, present };
         let (nis, log_likelihood) = scores.split_at_mut(1);
         let (nis, log_likelihood) = (&mut nis[0], &mut log_likelihood[0]);
@@ -170,8 +201,12 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
             &mut innovation,
             scratch,
         );
-        let (present, _) = done.map_err(fail)?;
-        self.present = present;
+        let updated = done.map_err(fail)?;
+        if updated.present > 0 {
+            raise(floor, updated.exact);
+        }
+        self.present = updated.present;
+        self.moved &= updated.present == 0;
         self.step += 1;
         Ok(())
     }

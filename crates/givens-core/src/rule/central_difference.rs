@@ -44,6 +44,10 @@ impl Rule for CentralDifference {
         Real::sqrt(n as f64) / self.eta
     }
 
+    fn reach(&self, _: usize) -> Option<f64> {
+        Some(self.eta)
+    }
+
     fn tabulate<T: Real>(&self, _: usize, _: &mut [T]) {}
 
     #[inline(always)]

@@ -82,6 +82,9 @@ pub trait Rule: Copy {
         1.0
     }
 
+    /// How far along an axis the points stand from the mean, in standard deviations; none if the rule has no points.
+    fn reach(&self, n: usize) -> Option<f64>;
+
     /// Writes the table of nodes and weights, once per filter.
     fn tabulate<T: Real>(&self, n: usize, table: &mut [T]);
 

@@ -99,6 +99,14 @@ impl<R: PointRule> Rule for R {
         }
     }
 
+    /// One standard deviation for a table: its points are near and far.
+    fn reach(&self, n: usize) -> Option<f64> {
+        match self.pairs(n) {
+            Pairs::Axes { radius2, .. } => Some(Real::sqrt(radius2)),
+            Pairs::Table { .. } => Some(1.0),
+        }
+    }
+
     /// The table: weights w, scales √(2|w|), then the nodes axis by axis.
     fn tabulate<T: Real>(&self, n: usize, table: &mut [T]) {
         let Pairs::Table { count, .. } = self.pairs(n) else { return };

@@ -31,6 +31,10 @@ impl Rule for Taylor {
         0.0
     }
 
+    fn reach(&self, _: usize) -> Option<f64> {
+        None
+    }
+
     fn tabulate<T: Real>(&self, _: usize, _: &mut [T]) {}
 
     #[inline(always)]

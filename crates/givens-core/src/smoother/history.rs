@@ -199,8 +199,12 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
         let (n, len) = (self.states, Self::record_len(self.states, self.square_root));
         let (records, mut rest) = self.memory.as_mut().split_at_mut(self.capacity * len);
         let rest_of = &mut rest;
-        let belief =
-            Belief { mean: take(rest_of, n), factor: take(rest_of, n * n), cov: take(rest_of, square) };
+        let belief = Belief {
+            mean: take(rest_of, n),
+            factor: take(rest_of, n * n),
+            cov: take(rest_of, square),
+            moved: &mut [],
+        };
         (belief, records, rest)
     }
 

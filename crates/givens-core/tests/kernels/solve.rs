@@ -23,7 +23,7 @@ fn transposed(a: &Matrix) -> Matrix {
 
 /// |X − Y| in units of ε Π of a triangular system's growth, which is at most 3ⁿ here.
 fn close(x: &Matrix, y: &Matrix) -> bool {
-    let allowed = 4.0 * f64::EPSILON * 3f64.powi(x.columns as i32);
+    let allowed = 4.0 * f64::EPSILON * 3f64.powi(i32::try_from(x.columns).unwrap());
     x.data.iter().zip(&y.data).all(|(x, y)| (x - y).abs() <= allowed)
 }
 

@@ -52,7 +52,7 @@ fn parts() -> impl Strategy<Value = (Matrix, Matrix, Matrix)> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 300, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn it_is_tria_of_the_assembled_block((l, between, s) in parts(), noiseless: bool) {

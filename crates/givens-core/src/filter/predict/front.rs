@@ -130,6 +130,11 @@ impl<I: Image> Carrier for Front<I> {
         super::lanes(tria(factor, n, n, n), Matrix::Predicted).map(|_| ())
     }
 
+    fn root<T: Real>(&self, y: &[T], _: &[T], root: &mut [T]) {
+        let n = self.image.states();
+        root.copy_from_slice(&y[n..n + n * n]);
+    }
+
     fn covariance<T: Real>(&self, _: &[T], factor: &[T], cov: &mut [T]) {
         let n = self.image.states();
         square(cov, n, factor, n, n);

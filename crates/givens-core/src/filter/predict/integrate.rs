@@ -23,6 +23,10 @@ pub(super) trait Carrier: System<Fault = Fault> {
     fn begin<T: Real>(&self, belief: &Belief<T>, y: &mut [T]);
     /// The lower triangular root of the covariance.
     fn factor<T: Real>(&self, y: &[T], factor: &mut [T]) -> Result<(), Fault>;
+    /// The root that the solver has carried, of which `factor` is the lower triangular one.
+    fn root<T: Real>(&self, _: &[T], factor: &[T], root: &mut [T]) {
+        root.copy_from_slice(factor);
+    }
     /// The covariance, n × n, of which `factor` is the root.
     fn covariance<T: Real>(&self, y: &[T], factor: &[T], cov: &mut [T]);
     /// X, n × n; empty if it is not carried.
@@ -109,6 +113,9 @@ pub(super) fn integrate<T: Real, C: Carrier, F: Form, M, R>(
         carrier.covariance(y, next, belief.cov);
     }
     belief.factor.copy_from_slice(next);
+    if !belief.moved.is_empty() {
+        carrier.root(y, next, belief.moved);
+    }
     Ok(sick)
 }
 

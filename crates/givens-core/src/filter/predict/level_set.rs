@@ -25,6 +25,17 @@ pub enum Gauge {
     Triangular,
 }
 
+/// The root that the measurement update after a level-set step draws its points from. A cubature update depends on it,
+/// at the level of a percent for the radar of the papers.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Root {
+    /// The lower triangular one, as in every other filter.
+    #[default]
+    Lower,
+    /// The one that the step has moved, as it is.
+    Moved,
+}
+
 /// `level-set`: the points x̄ ± M move with the drift (docs/algorithms.md C11, C12). The rule serves the measurement
 /// update alone.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -33,6 +44,8 @@ pub struct LevelSet {
     pub velocity: Velocity,
     /// What becomes of the root.
     pub gauge: Gauge,
+    /// The root that the update draws its points from.
+    pub root: Root,
     /// The solver.
     pub integrator: Integrator,
 }
@@ -64,6 +77,10 @@ impl<M: Sde> TimeUpdate<M> for LevelSet {
             Gauge::Free => of(front_len(n, smoothing), front_scratch(n, q, image)),
             Gauge::Triangular => of(moments_len(n, smoothing), moments_scratch(n, q, image)),
         }
+    }
+
+    fn moves_root(&self) -> bool {
+        self.root == Root::Moved
     }
 
     fn plan(&self, _: &M, from: f64, to: f64) -> Result<Plan, Fault> {

@@ -20,7 +20,7 @@ pub use euler_maruyama::EulerMaruyama;
 pub use gain::{Backward, accumulate};
 pub(crate) use gain::{accumulate_scratch, multiply, split};
 pub use ito_taylor::{ItoTaylor, Variant};
-pub use level_set::{Gauge, LevelSet};
+pub use level_set::{Gauge, LevelSet, Root};
 pub use moment_ode::MomentOde;
 pub use transition::OneTransition;
 pub use velocity::Velocity;
@@ -96,6 +96,11 @@ pub trait TimeUpdate<M>: Copy {
     /// # Errors
     /// A gap that the model has no steps for.
     fn plan(&self, model: &M, from: f64, to: f64) -> Result<Plan, Fault>;
+
+    /// Whether a step leaves a root of its own, [`Belief::moved`], for the measurement update.
+    fn moves_root(&self) -> bool {
+        false
+    }
 
     /// Moves `belief` over one step; with `back`, also what a smoother needs to come back over it. After a fault the
     /// belief is as before, or that of the time reached.

@@ -44,7 +44,19 @@ pub(crate) const fn update_scratch(n: usize, d: usize, r: usize, shape: Shape, m
     sense_scratch(n, d, r, shape) + if block > spread { block } else { spread }
 }
 
-/// Updates `belief` by a measurement, writes the innovation and returns how many components were there. With none,
+/// What an update did.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Updated<T: Real> {
+    /// Components that were there.
+    pub present: usize,
+    /// The lanes in which one of them had no more noise than rounding.
+    pub exact: T::Mask,
+    /// The lanes that a kernel could not serve.
+    #[allow(dead_code, reason = "for packs")]
+    pub sick: T::Mask,
+}
+
+/// Updates `belief` by a measurement, and writes the innovation. With no component there,
 /// or after a fault, the belief is as before (but for a mean that has overflowed).
 #[inline(always)]
 pub(crate) fn update<T: Real, H: Observation, R: Rule, F: Form>(
@@ -57,11 +69,11 @@ pub(crate) fn update<T: Real, H: Observation, R: Rule, F: Form>(
     belief: &mut Belief<T>,
     innovation: &mut InnovationMut<T>,
     mut scratch: &mut [T],
-) -> Result<(usize, T::Mask), Fault> {
+) -> Result<Updated<T>, Fault> {
     let (sensed, mut sick) = sense(rule, table, h, at, &measurement, belief, innovation, &mut scratch)?;
     if sensed.d == 0 {
         (*innovation.nis, *innovation.log_likelihood) = (T::zero(), T::zero());
-        return Ok((0, sick));
+        return Ok(Updated { present: 0, exact: T::Mask::splat(false), sick });
     }
     let more = match (F::SQUARE_ROOT, block) {
         (false, _) => covariance::update(&sensed, belief, innovation, scratch),
@@ -73,5 +85,5 @@ pub(crate) fn update<T: Real, H: Observation, R: Rule, F: Form>(
         return Err(Fault::NotFinite { quantity: Quantity::Estimate, component });
     }
     innovation.score(sensed.d);
-    Ok((sensed.d, sick))
+    Ok(Updated { present: sensed.d, exact: sensed.exact, sick })
 }

@@ -3,14 +3,15 @@
 use super::{InnovationMut, Measurement};
 use crate::filter::error::{Fault, Matrix, Quantity};
 use crate::filter::form::Belief;
-use crate::filter::memory::take;
+use crate::filter::memory::{put_columns, take};
 use crate::filter::predict::lanes;
+use crate::kernels::tria;
 use crate::model::{At, Observation, Sensed as SensedMap};
 use crate::rule::{Rule, Shape, Spread};
 use crate::scalar::{Mask, Real};
 
 /// Z = [D E S_R] and the negative columns, rows of the present components only.
-pub(super) struct Sensed<'a, T> {
+pub(super) struct Sensed<'a, T: Real> {
     /// Number of components present.
     pub d: usize,
     /// d rows of length `stride`: D (n columns), E, S_R.
@@ -19,6 +20,9 @@ pub(super) struct Sensed<'a, T> {
     /// d rows of length `lost`.
     pub minus: &'a [T],
     pub lost: usize,
+    /// The lanes in which a component has no more noise than the rounding of its images: the update may then leave mere
+    /// rounding of a state.
+    pub exact: T::Mask,
 }
 
 impl<T> Measurement<'_, T> {
@@ -68,10 +72,12 @@ pub(super) fn sense<'a, T: Real, H: Observation, R: Rule>(
     let mean = &mut innovation.predicted[..all];
 
     let mut spread = Spread { mean: &mut *mean, dev: &mut *dev, stride, minus: &mut *minus };
-    rule.spread(table, &SensedMap(h), at, belief.mean, belief.factor, &mut spread, scratch);
+    let moved = !belief.moved.is_empty();
+    let drawn = if moved { &*belief.moved } else { &*belief.factor };
+    rule.spread(table, &SensedMap(h), at, belief.mean, drawn, &mut spread, scratch);
     let sick = lanes(h.noise_root(at, root), Matrix::MeasurementNoise)?;
 
-    let mut d = 0;
+    let (mut d, mut exact) = (0, T::Mask::splat(false));
     for i in 0..all {
         if measurement.present.is_some_and(|present| !present[i]) {
             continue;
@@ -85,9 +91,11 @@ pub(super) fn sense<'a, T: Real, H: Observation, R: Rule>(
             return bad(if derived { Quantity::ObservationDerivative } else { Quantity::Observation });
         }
         let noise = &root[i * r..(i + 1) * r];
-        if (!noise.iter().fold(T::zero(), |sum, &x| sum + x.abs()).finite()).all() {
+        let deviation = noise.iter().fold(T::zero(), |sum, &x| sum + x.abs());
+        if (!deviation.finite()).all() {
             return bad(Quantity::MeasurementNoise);
         }
+        exact = exact | deviation.le(T::of(64.0 * T::EPSILON) * size);
         if (!measurement.z[i].finite()).all() {
             return bad(Quantity::Measurement);
         }
@@ -101,5 +109,24 @@ pub(super) fn sense<'a, T: Real, H: Observation, R: Rule>(
         mean[d] = wrapped(mean[i]);
         d += 1;
     }
-    Ok((Sensed { d, dev, stride, minus, lost: shape.minus }, sick))
+    if moved {
+        turn(belief.moved, dev, d, stride, scratch);
+    }
+    Ok((Sensed { d, dev, stride, minus, lost: shape.minus, exact }, sick))
+}
+
+/// [M; D] Q = [S; D Q] with S lower triangular: D from the coordinates of M to those of S.
+fn turn<T: Real>(moved: &[T], dev: &mut [T], d: usize, stride: usize, scratch: &mut [T]) {
+    let n = moved.len().isqrt();
+    let size = n + d;
+    let block = &mut scratch[..size * size];
+    put_columns(block, size, 0, moved, n);
+    for (to, row) in block[n * size..].chunks_exact_mut(size).zip(dev.chunks_exact(stride)) {
+        to[..n].copy_from_slice(&row[..n]);
+    }
+    // the rows of D find no column left to be reflected in
+    let _ = tria(block, size, n, size);
+    for (row, from) in dev.chunks_exact_mut(stride).zip(block[n * size..].chunks_exact(size)) {
+        row[..n].copy_from_slice(&from[..n]);
+    }
 }

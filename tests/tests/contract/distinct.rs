@@ -1,0 +1,156 @@
+//! A standard deviation below the spacing of numbers at the mean is an error, not a covariance that collapses.
+
+use givens::filter::{
+    Cdkf, Ckf, Ckf5, Ekf, Fault, Filter, Method, Prior, Qkf, Sizes, SrCdkf, SrCkf, SrCkf5, SrEkf, SrQkf,
+    SrUkf, StepError, Ukf,
+};
+use givens::model::{At, Noise, Observation, Transition};
+use givens::scalar::Real;
+
+/// A position and a velocity that goes on; the position is measured, with this standard deviation.
+#[derive(Clone, Copy)]
+struct Straight(f64);
+
+impl Transition for Straight {
+    fn states(&self) -> usize {
+        2
+    }
+    fn transition<T: Real>(&self, at: &At<T>, x: &[T], out: &mut [T]) {
+        out.copy_from_slice(&[at.dt.mul_add(x[1], x[0]), x[1]]);
+    }
+    fn noise(&self) -> Noise {
+        Noise::Root(0)
+    }
+    fn process_noise<T: Real>(&self, _: &At<T>, _: &mut [T]) {}
+}
+
+impl Observation for Straight {
+    fn states(&self) -> usize {
+        2
+    }
+    fn measures(&self) -> usize {
+        1
+    }
+    fn observe<T: Real>(&self, _: &At<T>, x: &[T], out: &mut [T]) {
+        out[0] = x[0];
+    }
+    fn noise(&self) -> Noise {
+        Noise::Root(1)
+    }
+    fn measurement_noise<T: Real>(&self, _: &At<T>, out: &mut [T]) {
+        out[0] = T::of(self.0);
+    }
+}
+
+type Own<'m, X, T> = Filter<'m, X, Straight, T, Vec<T>>;
+
+fn start<T: Real, X: Method>(method: X, model: &Straight, mean: [f64; 2], std: [f64; 2]) -> Own<'_, X, T>
+where
+    X: givens::filter::Over<Straight>,
+{
+    let sizes = Sizes::new(2, 1);
+    let factor = [std[0], 0.0, 0.0, std[1]];
+    let cov = factor.map(|s| s * s);
+    let prior = Prior { time: 0.0, mean: &mean, factor: &factor, cov: &cov };
+    let memory = vec![T::zero(); Own::<X, T>::memory_len(&method, sizes, false)];
+    Filter::start_in(method, model, sizes, false, prior, memory).unwrap()
+}
+
+macro_rules! every_type {
+    ($check:ident) => {
+        $check("ukf", Ukf::default());
+        $check("cdkf", Cdkf::default());
+        $check("qkf", Qkf::default());
+        $check("ckf", Ckf::default());
+        $check("ckf5", Ckf5::default());
+        $check("sr-ukf", SrUkf::default());
+        $check("sr-cdkf", SrCdkf::default());
+        $check("sr-qkf", SrQkf::default());
+        $check("sr-ckf", SrCkf::default());
+        $check("sr-ckf5", SrCkf5::default());
+    };
+}
+
+fn indistinct(result: Result<(), StepError>) -> Option<usize> {
+    match result {
+        Ok(()) => None,
+        Err(StepError { fault: Fault::Indistinct { component }, .. }) => Some(component),
+        Err(other) => panic!("{other}"),
+    }
+}
+
+fn refuses<X: Method + givens::filter::Over<Straight>>(name: &str, method: X) {
+    let model = Straight(1.0);
+    // the spacing at 1e16 is 2, at 4e6 in single precision 0.25
+    let far = || start::<f64, X>(method, &model, [1e16, 1.0], [0.1, 1.0]);
+    assert_eq!(indistinct(far().predict(1.0)), Some(0), "{name}");
+    assert_eq!(indistinct(far().update(&model, &[1e16])), Some(0), "{name}");
+    let single = || start::<f32, X>(method, &model, [1.0, 4e6], [1.0, 0.05]);
+    assert_eq!(indistinct(single().predict(1.0)), Some(1), "{name}");
+    let mut refused = far();
+    assert!(refused.predict(1.0).is_err());
+    assert_eq!((refused.time(), refused.mean()), (0.0, &[1e16, 1.0][..]), "{name}: the belief is as before");
+    // nothing to lose
+    let mut known = start::<f64, X>(method, &model, [1e16, 1.0], [0.0, 10.0]);
+    assert_eq!(indistinct(known.predict(1.0)), None, "{name}");
+}
+
+#[test]
+fn points_that_coincide_with_the_mean_are_refused() {
+    every_type!(refuses);
+}
+
+#[test]
+fn a_rule_without_points_has_none_that_coincide() {
+    let model = Straight(1.0);
+    assert!(start::<f64, _>(Ekf::default(), &model, [1e16, 1.0], [0.1, 1.0]).predict(1.0).is_ok());
+    assert!(start::<f64, _>(SrEkf::default(), &model, [1e16, 1.0], [0.1, 1.0]).predict(1.0).is_ok());
+}
+
+#[test]
+fn points_of_a_small_alpha_coincide_first() {
+    let model = Straight(1.0);
+    let filter = |alpha| start::<f64, _>(SrUkf { alpha, ..SrUkf::DEFAULT }, &model, [4e6, 1.0], [1e-3, 1.0]);
+    assert_eq!(indistinct(filter(1e-3).predict(1.0)), None);
+    assert_eq!(indistinct(filter(1e-8).predict(1.0)), Some(0));
+}
+
+/// A measurement without noise leaves a standard deviation of rounding, far below the spacing at the mean: zero, not a loss.
+fn goes_on<X: Method + givens::filter::Over<Straight>>(name: &str, method: X) {
+    let (model, exact) = (Straight(1.0), Straight(0.0));
+    let mut filter = start::<f64, X>(method, &model, [1e6, 3.0], [1.0, 0.5]);
+    for k in 1..=6 {
+        let t = f64::from(k);
+        assert_eq!(indistinct(filter.predict(t)), None, "{name}, row {k}");
+        let sensor = if k % 2 == 0 { &model } else { &exact };
+        if filter.cov()[0] > 1e-9 {
+            assert_eq!(indistinct(filter.update(sensor, &[1e6 + 3.0 * t])), None, "{name}, row {k}");
+            assert_eq!(indistinct(filter.update(&model, &[1e6 + 3.0 * t])), None, "{name}, row {k}");
+        }
+    }
+}
+
+#[test]
+fn a_measurement_without_noise_is_no_loss() {
+    every_type!(goes_on);
+}
+
+fn keeps<X: Method + givens::filter::Over<Straight>>(name: &str, method: X) {
+    let model = Straight(1.0);
+    // from 2 to 4e6 spacings: either refused, or the variance is right to a quarter, and better the more there are
+    let spacing = 4e6f64.next_up() - 4e6;
+    for spacings in [0.01, 0.3, 0.5, 0.7, 1.0, 1.5, 2.3, 3.7, 7.3, 40.1, 1e3, 4e6] {
+        let std = spacings * spacing;
+        let mut filter = start::<f64, X>(method, &model, [4e6, 0.0], [std, 0.0]);
+        let done = indistinct(filter.predict(1.0));
+        let error = (filter.cov()[0] / (std * std) - 1.0).abs();
+        assert!(done.is_some() || error <= (1.1 / spacings).min(0.4), "{name}, {spacings} spacings: {error}");
+        assert!(done.is_none() || spacings <= 4.0, "{name}, {spacings} spacings: refused");
+        assert!(done.is_some() || spacings >= 0.3, "{name}, {spacings} spacings: accepted");
+    }
+}
+
+#[test]
+fn what_is_accepted_keeps_its_variance() {
+    every_type!(keeps);
+}

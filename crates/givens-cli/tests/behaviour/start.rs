@@ -136,7 +136,9 @@ fn two_rows_at_one_time_have_no_rate() {
     let found = folder.run("filter model.toml data.csv -o out.csv");
     assert_eq!((found.code, folder.files().contains(&"out.csv".to_owned())), (2, false));
     assert!(
-        found.stderr.contains("data.csv:3: `rate` needs two times, but this row and that of line 2 are at one"),
+        found
+            .stderr
+            .contains("data.csv:3: `rate` needs two times, but this row and that of line 2 are at one"),
         "{}",
         found.stderr
     );

@@ -2,7 +2,7 @@
 
 use givens_core::scalar::Real;
 
-use crate::graph::{Graph, GraphError, Input, Node};
+use crate::graph::{Graph, Input, Node};
 use crate::program::{Inputs, Program};
 
 /// f, L₀f and Lf = J G, derived by symbol; what vanishes in them is not computed.
@@ -12,20 +12,21 @@ pub(super) struct Expansion {
     states: usize,
 }
 
+/// Nodes that are looked at before an expansion is given up: about a second's work.
+const MOST_VISITS: usize = 300_000_000;
+
 impl Expansion {
     /// L₀f = ∂f/∂t + Σ_p f_p ∂f/∂x_p + ½ Σ_pr (G Gᵀ)_pr ∂²f/∂x_p∂x_r; G, n × `noises`, does not depend on the state.
-    pub fn new(
-        graph: &mut Graph,
-        drift: &[Node],
-        diffusion: &[Node],
-        noises: usize,
-    ) -> Result<Self, GraphError> {
+    ///
+    /// None if that is more than a graph holds, or takes too long to derive.
+    pub fn new(graph: &mut Graph, drift: &[Node], diffusion: &[Node], noises: usize) -> Option<Self> {
         let n = drift.len();
-        let mut l0 = graph.derivatives(drift, Input::Time)?;
         let zero = graph.constant(0.0);
+        let mut l0 = graph.derivatives(drift, Input::Time).ok()?;
         let mut lf = vec![zero; n * noises];
+        let mut visits = 0_usize;
         for (p, &velocity) in drift.iter().enumerate() {
-            let slopes = graph.derivatives(drift, Input::State(p as u32))?;
+            let slopes = graph.derivatives(drift, Input::State(p as u32)).ok()?;
             let row = &diffusion[p * noises..][..noises];
             let blown: Vec<usize> = (0..noises).filter(|&j| !is_zero(graph, row[j])).collect();
             for (i, &slope) in slopes.iter().enumerate().filter(|(_, slope)| **slope != zero) {
@@ -34,10 +35,26 @@ impl Expansion {
                     lf[i * noises + j] = plus(graph, lf[i * noises + j], row[j], slope);
                 }
             }
-            bend(graph, &mut l0, &slopes, p, diffusion, noises)?;
+            let inputs = graph.inputs_of_all(&slopes);
+            for r in (0..=p).filter(|&r| inputs.contains(&Input::State(r as u32))) {
+                // made for the pairs that need it only: for a full G it is the larger part
+                let weight = weight(graph, diffusion, noises, [p, r]);
+                visits += noises;
+                if is_zero(graph, weight) {
+                    continue;
+                }
+                visits += graph.len();
+                let seconds = graph.derivatives(&slopes, Input::State(r as u32)).ok()?;
+                for (l0, second) in l0.iter_mut().zip(seconds) {
+                    *l0 = plus(graph, *l0, weight, second);
+                }
+            }
+            if visits > MOST_VISITS {
+                return None;
+            }
         }
         let outputs = [drift, &l0, &lf].concat();
-        Ok(Self { program: Program::compile(graph, &outputs)?, states: n })
+        Some(Self { program: Program::compile(graph, &outputs).ok()?, states: n })
     }
 
     /// Scalars of scratch for `points` points.
@@ -60,33 +77,6 @@ impl Expansion {
         l0[..all].copy_from_slice(&results[all..2 * all]);
         lf[..results.len() - 2 * all].copy_from_slice(&results[2 * all..]);
     }
-}
-
-/// Adds to L₀f the second derivatives along x_p and x_r for r ≤ p, from the slopes along x_p.
-fn bend(
-    graph: &mut Graph,
-    l0: &mut [Node],
-    slopes: &[Node],
-    p: usize,
-    diffusion: &[Node],
-    noises: usize,
-) -> Result<(), GraphError> {
-    let inputs = graph.inputs_of_all(slopes);
-    for r in 0..=p {
-        let along = Input::State(r as u32);
-        if !inputs.contains(&along) {
-            continue;
-        }
-        // made for the pairs that need it only: for a full G it is the larger part
-        let weight = weight(graph, diffusion, noises, [p, r]);
-        if is_zero(graph, weight) {
-            continue;
-        }
-        for (l0, second) in l0.iter_mut().zip(graph.derivatives(slopes, along)?) {
-            *l0 = plus(graph, *l0, weight, second);
-        }
-    }
-    Ok(())
 }
 
 /// What ∂²f/∂x_p∂x_r counts for: (G Gᵀ)_pr, halved where p = r.

@@ -66,7 +66,7 @@ pub struct ModelSde {
     drift: Program,
     jacobian: Jacobian,
     diffusion: Program,
-    /// None where G depends on the state, and where the derivatives have more operations than a graph holds: they
+    /// None where G depends on the state, and where the derivatives are more than a graph holds: they
     /// are then worked out by duals.
     expansion: Option<Expansion>,
 }
@@ -90,7 +90,7 @@ impl ModelSde {
         let expansion = match varies {
             Varies::WithState => None,
             // in a graph of its own, so that derivatives which do not fit leave the model's usable
-            _ => Expansion::new(&mut graph.clone(), &drift, &diffusion, noises).ok(),
+            _ => Expansion::new(&mut graph.clone(), &drift, &diffusion, noises),
         };
         let columns: Vec<Input> = (0..states).map(|i| Input::State(i as u32)).collect();
         Ok(Self {

@@ -5,15 +5,15 @@ use givens_core::scalar::Real;
 use crate::graph::{Graph, Input, Node};
 use crate::program::{Inputs, Program};
 
+/// Nodes that are looked at before an expansion is given up: about a second's work.
+const MOST_VISITS: usize = 300_000_000;
+
 /// f, L₀f and Lf = J G, derived by symbol; what vanishes in them is not computed.
 #[derive(Clone, Debug)]
 pub(super) struct Expansion {
     program: Program,
     states: usize,
 }
-
-/// Nodes that are looked at before an expansion is given up: about a second's work.
-const MOST_VISITS: usize = 300_000_000;
 
 impl Expansion {
     /// L₀f = ∂f/∂t + Σ_p f_p ∂f/∂x_p + ½ Σ_pr (G Gᵀ)_pr ∂²f/∂x_p∂x_r; G, n × `noises`, does not depend on the state.

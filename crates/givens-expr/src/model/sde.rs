@@ -68,7 +68,7 @@ pub struct ModelSde {
     diffusion: Program,
     /// None where G depends on the state, and where the derivatives are more than a graph holds: they
     /// are then worked out by duals.
-    expansion: Option<Expansion>,
+    expansion: Option<Box<Expansion>>,
 }
 
 impl ModelSde {
@@ -90,7 +90,7 @@ impl ModelSde {
         let expansion = match varies {
             Varies::WithState => None,
             // in a graph of its own, so that derivatives which do not fit leave the model's usable
-            _ => Expansion::new(&mut graph.clone(), &drift, &diffusion, noises),
+            _ => Expansion::new(&mut graph.clone(), &drift, &diffusion, noises).map(Box::new),
         };
         let columns: Vec<Input> = (0..states).map(|i| Input::State(i as u32)).collect();
         Ok(Self {

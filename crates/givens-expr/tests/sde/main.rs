@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod expansion;
+mod filters;
 mod parts;
 
 use givens_core::model::{At, Sde};

@@ -40,6 +40,7 @@ mod program;
 mod refuse;
 mod scope;
 mod simplify;
+mod substitute;
 mod suggest;
 
 pub use error::ExprError;
@@ -48,7 +49,7 @@ pub use graph::{Graph, GraphError, Input, MAX_NODES, Node};
 pub use lex::{is_name, names};
 pub use model::{
     ModelError, ModelObservation, ModelSde, ModelStart, ModelTransition, NoiseBlock, ObservationParts,
-    SdeParts, StartParts, TransitionParts,
+    SdeParts, StartParts, TransitionParts, rate,
 };
 pub use operation::{Binary, Unary};
 pub use parse::{parse, parse_any};

@@ -157,7 +157,7 @@ fn start_finds_some_states_and_the_rest_keep_mean_and_std() {
     let start = model.start.as_ref().unwrap();
     assert_eq!((start.states.as_slice(), start.measures.as_slice()), (&[0, 2][..], &[0, 1][..]));
     let (mut found, mut slopes) = ([0.0; 2], [0.0; 4]);
-    start.function.evaluate(0.0, &[], &[], &[2.0, 0.0], &mut found, &mut slopes);
+    start.function.evaluate(&At { t: 0.0, dt: 0.0, u: &[], p: &[] }, &[2.0, 0.0], &mut found, &mut slopes);
     assert_eq!(found, [2.0, 0.0]);
     assert_eq!(slopes, [1.0, 0.0, 0.0, 2.0]);
 }

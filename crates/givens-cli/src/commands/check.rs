@@ -60,7 +60,10 @@ fn tell(out: &mut dyn Write, model: &Model) -> io::Result<()> {
             format!("at {}", model.epoch.map_or(String::new(), |epoch| epoch.to_string()))
         }
         (Some(time), _) => format!("at {}", Shown(time)),
-        (None, Some(_)) => "at the first row that `start` can read".to_owned(),
+        (None, Some(start)) => {
+            let row = if start.two_rows { "second" } else { "first" };
+            format!("at the {row} row that `start` can read")
+        }
         (None, None) => "at the first row of each track".to_owned(),
     };
     writeln!(out, "  begins      {begins}")?;

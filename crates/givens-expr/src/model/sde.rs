@@ -1,9 +1,10 @@
 //! Continuous-time dynamics made of expressions.
 
-use givens_core::model::{At, Linear, Sde, Varies};
+use givens_core::model::{At, Linear, Sde, Varies, expansion_by_duals, expansion_scratch};
 use givens_core::scalar::Real;
 
 use super::error::{ModelError, Nameable, finite, length};
+use super::expansion::Expansion;
 use super::frame::with_frame;
 use super::jacobian::Jacobian;
 use crate::graph::{Graph, Input, Node};
@@ -65,6 +66,9 @@ pub struct ModelSde {
     drift: Program,
     jacobian: Jacobian,
     diffusion: Program,
+    /// None where G depends on the state, and where the derivatives are more than a graph holds: they
+    /// are then worked out by duals.
+    expansion: Option<Box<Expansion>>,
 }
 
 impl ModelSde {
@@ -82,16 +86,23 @@ impl ModelSde {
         nameable.check(graph, "the drift", &drift)?;
         nameable.check(graph, "the diffusion", &diffusion)?;
         let (diffusion, noises) = without_zero_columns(graph, &diffusion, noises);
+        let varies = varies(graph, &diffusion);
+        let expansion = match varies {
+            Varies::WithState => None,
+            // in a graph of its own, so that derivatives which do not fit leave the model's usable
+            _ => Expansion::new(&mut graph.clone(), &drift, &diffusion, noises).map(Box::new),
+        };
         let columns: Vec<Input> = (0..states).map(|i| Input::State(i as u32)).collect();
         Ok(Self {
             states,
             controls,
             parameters,
             noises,
-            varies: varies(graph, &diffusion),
+            varies,
             jacobian: Jacobian::new(graph, &drift, &columns)?,
             drift: Program::compile(graph, &drift)?,
             diffusion: Program::compile(graph, &diffusion)?,
+            expansion,
         })
     }
 
@@ -170,5 +181,28 @@ impl Sde for ModelSde {
     fn drift_linear<T: Real>(&self, at: &At<T>, x: &[T], s: &[T], out: Linear<T>, scratch: &mut [T]) {
         let inputs = Inputs { at: *at, x, z: &[] };
         self.jacobian.times(&inputs, self.states, s, out, scratch);
+    }
+
+    fn expansion_scratch(&self, points: usize) -> usize {
+        match &self.expansion {
+            Some(expansion) => expansion.scratch_len(points),
+            None => expansion_scratch(self.states, self.noises, self.controls + self.parameters.len()),
+        }
+    }
+
+    fn expansion_points<T: Real>(
+        &self,
+        at: &At<T>,
+        points: usize,
+        x: &[T],
+        f: &mut [T],
+        l0: &mut [T],
+        lf: &mut [T],
+        scratch: &mut [T],
+    ) {
+        match &self.expansion {
+            Some(expansion) => expansion.points(&Inputs { at: *at, x, z: &[] }, points, [f, l0, lf], scratch),
+            None => expansion_by_duals(self, at, points, x, f, l0, lf, scratch),
+        }
     }
 }

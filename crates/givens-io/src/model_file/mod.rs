@@ -24,7 +24,7 @@ pub use sensor::Sensor;
 pub use start::Start;
 pub use state::Prior;
 
-use givens_core::model::Transition;
+use givens_core::model::{At, Transition};
 use givens_expr::ModelObservation;
 
 use crate::error::InputErrors;
@@ -69,7 +69,7 @@ pub struct Model {
     pub epoch: Option<Calendar>,
     /// The initial belief, but for the states that `start` finds.
     pub prior: Prior,
-    /// What finds states from the first row of a track.
+    /// What finds states from the first row of a track, or its first two.
     pub start: Option<Start>,
     /// How the state moves.
     pub dynamics: Dynamics,
@@ -137,7 +137,8 @@ impl Model {
         }
         let p: Vec<f64> = self.parameters.iter().map(|(_, value)| *value).collect();
         let (mut found, mut slopes) = ([0.0; 2], vec![0.0; 2 * self.measures()]);
-        placement.function.evaluate(row.time, &row.u, &p, &row.z, &mut found, &mut slopes);
+        let at = At { t: row.time, dt: 0.0, u: &row.u, p: &p };
+        placement.function.evaluate(&at, &row.z, &mut found, &mut slopes);
         // The function finds states in ascending order.
         let [first, second] = self.plane?;
         let point = if first < second { found } else { [found[1], found[0]] };

@@ -85,8 +85,9 @@ fn sections(findings: &Findings, document: &[Entry], given: &[(&str, f64)]) -> O
 
     let state_section = state_section?;
     let time = state::time(&mut context, &state_section);
-    let found = if sketches.is_some() {
-        start::read(&mut context, &state_section, &states)
+    let found = if let Some(sketches) = &sketches {
+        let measures = sketches.iter().map(|sketch| sketch.columns.len()).sum();
+        start::read(&mut context, &state_section, &states, measures)
     } else {
         start::Found::default()
     };
@@ -106,6 +107,8 @@ fn sections(findings: &Findings, document: &[Entry], given: &[(&str, f64)]) -> O
     let start = start::function(&mut context, &found, &started, measures);
     let placement =
         plane.and_then(|[i, j]| start::function(&mut context, &found, &[i.min(j), i.max(j)], measures));
+    // a single row cannot place a rate
+    let placement = placement.filter(|placement| !placement.two_rows);
     let (time, epoch) = time?;
     Some(Model {
         file: findings.source.name.clone(),

@@ -182,7 +182,12 @@ fn or_control(scope: &Scope, name: &str) -> String {
 }
 
 fn is_broken(graph: &Graph, scope: &Scope, name: &str) -> bool {
-    matches!(scope.get(name), Some(Meaning::Is(node)) if graph.inputs_of(*node).contains(&BROKEN))
+    matches!(scope.get(name), Some(Meaning::Is(node)) if is_broken_node(graph, *node))
+}
+
+/// Whether a node is made of what was found wrong.
+pub(super) fn is_broken_node(graph: &Graph, node: Node) -> bool {
+    graph.inputs_of(node).contains(&BROKEN)
 }
 
 /// The controls that expressions in a value use, each with the byte where it stands.

@@ -69,8 +69,12 @@ pub(super) fn is_continuous(section: &Section) -> bool {
 
 /// Finds keys wrong that belong to the other kind of model.
 fn mixed(context: &Context, section: &Section) -> bool {
+    // with both of them it is open which of the other keys are foreign
+    let both = section.get("transition").is_some() && section.get("drift").is_some();
     let mut any = false;
-    for entry in section.entries {
+    for entry in
+        section.entries.iter().filter(|entry| !both || matches!(entry.key.as_str(), "transition" | "drift"))
+    {
         if let Some((message, help)) = foreign(entry, is_continuous(section)) {
             context.findings.wrong_help(&entry.span, message, help);
             any = true;

@@ -109,7 +109,8 @@ impl Scenario {
         rows: impl Iterator<Item = Row<'a>> + Clone,
         goal: Goal,
     ) -> Outcome {
-        choice.run(&self.model.transition, &self.model.observation, rows, self.start, &self.prior, goal)
+        let transition = self.model.dynamics.discrete().expect("the scenarios are discrete");
+        choice.run(transition, &self.model.observation, rows, self.start, &self.prior, goal)
     }
 
     /// The rows of the data.

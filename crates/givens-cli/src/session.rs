@@ -33,7 +33,8 @@ impl Session {
                 Row { time: row.time, z, u: &row.u }
             });
             let rows = progress.counting(rows);
-            let (model, sensors) = (&plan.model.transition, &plan.model.observation);
+            let Some(model) = plan.model.dynamics.discrete() else { continue };
+            let sensors = &plan.model.observation;
             let outcome = choice.run(model, sensors, rows, begin.time, &begin.prior, *goal);
             if let Some((row, error)) = &outcome.failure {
                 let at = &track.rows[begin.row + row];

@@ -2,7 +2,6 @@
 
 use crate::args::SimulateArgs;
 use crate::message::Stop;
-use givens::model::Transition;
 use givens::scalar::Shown;
 use givens_io::{Model, Row, Track, Tracks};
 
@@ -52,7 +51,7 @@ pub fn bounded(rows: f64) -> Result<(), Stop> {
 
 /// The time between two rows.
 fn distance(model: &Model, args: &SimulateArgs) -> Result<f64, Stop> {
-    let Some(every) = args.every.or(model.transition.period()) else {
+    let Some(every) = args.every.or(model.step()) else {
         return Err(Stop::input("the model has no step").help("say the time between rows: --every DT"));
     };
     if !(every > 0.0 && every.is_finite()) {
@@ -61,7 +60,7 @@ fn distance(model: &Model, args: &SimulateArgs) -> Result<f64, Stop> {
             Shown(every)
         )));
     }
-    if let Some(step) = model.transition.period() {
+    if let Some(step) = model.step() {
         let steps = every / step;
         if (steps - steps.round()).abs() > 1e-6 || steps.round() < 1.0 {
             let stop = Stop::input(format!(

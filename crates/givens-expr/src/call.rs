@@ -7,11 +7,15 @@ use crate::function::{Body, Function, function, functions};
 use crate::hints;
 use crate::lex::Token;
 use crate::parse::{Parser, Term};
+use crate::scope::Scope;
 use crate::suggest::suggest;
 
 /// Reads the arguments of `name`, which stands at `span` before a `(`.
 pub(crate) fn call(parser: &mut Parser<'_>, name: &str, span: Range<usize>) -> Result<Term, ExprError> {
     let Some(function) = function(name) else {
+        if parser.scope.takes_names(name) {
+            return of_name(parser, name, span);
+        }
         return Err(unknown(parser, name, span));
     };
     let open = parser.span.clone();
@@ -36,6 +40,27 @@ pub(crate) fn call(parser: &mut Parser<'_>, name: &str, span: Range<usize>) -> R
     let node = build(parser, function, &arguments)?;
     parser.grown(&span)?;
     parser.defined(Term { node, span: whole })
+}
+
+/// Reads a name in parentheses, for a word that takes names.
+fn of_name(parser: &mut Parser<'_>, word: &str, span: Range<usize>) -> Result<Term, ExprError> {
+    let open = parser.span.clone();
+    parser.advance()?;
+    let (token, place) = (parser.token, parser.span.clone());
+    let alone = |scope: &Scope, place| {
+        ExprError::new(place, format!("`{word}` takes a name, and nothing beside it"))
+            .help(scope.names_of(word))
+    };
+    let Token::Name(name) = token else { return Err(alone(parser.scope, place)) };
+    parser.advance()?;
+    if !matches!(parser.token, Token::Sign(")") | Token::End) {
+        return Err(alone(parser.scope, parser.span.clone()));
+    }
+    let whole = span.start..parser.span.end;
+    parser.close(&open, "")?;
+    let found = parser.scope.find_of(word, name);
+    let node = found.map_err(|error| ExprError { span: place, ..error })?;
+    Ok(Term { node, span: whole })
 }
 
 fn build(parser: &mut Parser<'_>, function: &Function, arguments: &[Term]) -> Result<crate::Node, ExprError> {

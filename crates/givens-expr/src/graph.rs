@@ -156,7 +156,12 @@ impl Graph {
 
     /// All that a node depends on.
     pub fn inputs_of(&self, node: Node) -> BTreeSet<Input> {
-        let reachable = self.reachable(&[node]);
+        self.inputs_of_all(&[node])
+    }
+
+    /// All that any of several nodes depends on.
+    pub fn inputs_of_all(&self, nodes: &[Node]) -> BTreeSet<Input> {
+        let reachable = self.reachable(nodes);
         let inputs = reachable.into_iter().filter_map(|node| match self.op(node) {
             Op::Input(input) => Some(input),
             _ => None,

@@ -2,8 +2,8 @@
 //! once.
 //!
 //! Text and other front ends meet in one [`Graph`], in which equal subexpressions are one node. From there
-//! [`Graph::derivative`] differentiates and [`Program`] compiles; [`ModelTransition`], [`ModelObservation`] and
-//! [`ModelStart`] are the models that filters take.
+//! [`Graph::derivative`] differentiates and [`Program`] compiles; [`ModelTransition`], [`ModelSde`],
+//! [`ModelObservation`] and [`ModelStart`] are the models that filters take.
 //!
 //! ```
 //! use givens_expr::{Graph, Input, Inputs, Meaning, Program, Scope, parse};
@@ -40,6 +40,7 @@ mod program;
 mod refuse;
 mod scope;
 mod simplify;
+mod substitute;
 mod suggest;
 
 pub use error::ExprError;
@@ -47,8 +48,8 @@ pub use function::{functions, is_reserved};
 pub use graph::{Graph, GraphError, Input, MAX_NODES, Node};
 pub use lex::{is_name, names};
 pub use model::{
-    ModelError, ModelObservation, ModelStart, ModelTransition, NoiseBlock, ObservationParts, StartParts,
-    TransitionParts,
+    ModelError, ModelObservation, ModelSde, ModelStart, ModelTransition, NoiseBlock, ObservationParts,
+    SdeParts, StartParts, TransitionParts, rate,
 };
 pub use operation::{Binary, Unary};
 pub use parse::{parse, parse_any};

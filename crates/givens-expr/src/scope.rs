@@ -32,6 +32,8 @@ pub enum Meaning {
 pub struct Scope {
     names: Vec<String>,
     meanings: HashMap<String, Meaning>,
+    /// Words that stand before a name in parentheses, and what they mean with each name.
+    of: HashMap<String, Vec<(String, Meaning)>>,
 }
 
 impl Scope {
@@ -51,6 +53,56 @@ impl Scope {
             self.names.push(name);
         }
         before
+    }
+
+    /// Gives `word(name)` its meaning. The word takes names that it has been given only, no expressions; names of
+    /// functions cannot be such words.
+    ///
+    /// ```
+    /// use givens_expr::{Graph, Input, Meaning, Scope, parse};
+    /// let (mut graph, mut scope) = (Graph::new(), Scope::new());
+    /// scope.insert_of("rate", "x", Meaning::Is(graph.input(Input::State(0))));
+    /// assert!(parse(&mut graph, &scope, "2*rate(x)").is_ok());
+    /// let error = parse(&mut graph, &scope, "2*rate(y)").unwrap_err();
+    /// assert_eq!(error.to_string(), "there is no `rate(y)`: known here: `rate(x)`");
+    /// ```
+    pub fn insert_of(&mut self, word: &str, name: &str, meaning: Meaning) {
+        let known = self.of.entry(word.to_string()).or_default();
+        known.retain(|(other, _)| other != name);
+        known.push((name.to_string(), meaning));
+    }
+
+    /// Whether a word takes names.
+    pub(crate) fn takes_names(&self, word: &str) -> bool {
+        self.of.contains_key(word)
+    }
+
+    /// The node of `word(name)`.
+    pub(crate) fn find_of(&self, word: &str, name: &str) -> Result<Node, ExprError> {
+        let known = self.of.get(word).map_or(&[][..], Vec::as_slice);
+        let whole = format!("`{word}({})`", short(name));
+        match known.iter().find(|(other, _)| other == name) {
+            Some((_, Meaning::Is(node))) => Ok(*node),
+            Some((_, Meaning::Forbidden(why))) => {
+                Err(ExprError::new(0..name.len(), format!("{whole} may not stand here")).help(why.as_str()))
+            }
+            None => {
+                let error = ExprError::new(0..name.len(), format!("there is no {whole}"));
+                Err(error.help(self.names_of(word)))
+            }
+        }
+    }
+
+    /// The names that a word takes, for a remedy.
+    pub(crate) fn names_of(&self, word: &str) -> String {
+        let known = self.of.get(word).into_iter().flatten();
+        let known = known.filter(|(_, meaning)| matches!(meaning, Meaning::Is(_)));
+        let all: Vec<String> = known.map(|(name, _)| format!("`{word}({name})`")).take(12).collect();
+        if all.is_empty() {
+            format!("nothing has a `{word}` here")
+        } else {
+            format!("known here: {}", all.join(", "))
+        }
     }
 
     /// The names, in the order in which they were first given.

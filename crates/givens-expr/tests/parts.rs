@@ -185,11 +185,11 @@ fn a_start_places_a_radar_return_with_its_slopes() {
     let (s, c) = b.sin_cos();
     let (mut values, mut jacobian) = ([0.0; 2], [9.0; 6]);
     // a measure that is not named may be missing
-    start.evaluate(0.0, &[], &[], &[r, b, f64::NAN], &mut values, &mut jacobian);
+    start.evaluate(&At { t: 0.0, dt: 0.0, u: &[], p: &[] }, &[r, b, f64::NAN], &mut values, &mut jacobian);
     assert_eq!(values, [r * c, r * s]);
     assert_eq!(jacobian, [c, -(s * r), 0.0, s, r * c, 0.0]);
     let mut short = [0.0_f64; 5];
-    start.evaluate(0.0, &[], &[], &[r, b, 0.0], &mut values, &mut short);
+    start.evaluate(&At { t: 0.0, dt: 0.0, u: &[], p: &[] }, &[r, b, 0.0], &mut values, &mut short);
     assert!(values.iter().chain(&short).all(|value| value.is_nan()));
 }
 

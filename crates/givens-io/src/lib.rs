@@ -13,7 +13,7 @@ mod table;
 
 pub use error::{InputError, InputErrors, Location, Place};
 pub use model_file::{
-    BeginError, Beginning, FilterSettings, Model, Prior, Sensor, Setting, SettingValue, Start,
+    BeginError, Beginning, Dynamics, FilterSettings, Model, Prior, Sensor, Setting, SettingValue, Start,
 };
 pub use output::{
     Answer, Destination, DestinationError, Drawn, Format, write_answers, write_measurements, write_states,

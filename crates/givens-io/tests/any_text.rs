@@ -46,6 +46,22 @@ measures = { range = "hypot(x, y)", bearing = "atan2(y, x)" }
 std = [10, 0.1]
 "#;
 
+const CONTINUOUS: &str = r#"[state]
+names = ["x", "vx", "y"]
+start = { x = "range*cos(bearing)", y = "range*sin(bearing)", vx = "rate(x) + 0*t" }
+[parameters]
+q = 0.1
+[let]
+a = "q*x^3"
+[dynamics]
+drift = { x = "vx", vx = "u_f - a", y = "where(x > 0, sin(t), 0)" }
+diffusion = [["q", 0], [0, "sqrt(q)*t"], [1, 0]]
+[[sensor]]
+name = "radar"
+measures = { range = "hypot(x, y)", bearing = "atan2(y, x)" }
+std = [10, 0.1]
+"#;
+
 const TABLE: &str = "time,track_id,sensor,range,bearing,px,u_a,note\n\
     0.5,a,radar,1,2,,0,\"x, y\"\n0.5,a,gps,,,3,0,\n1.0,b,,1,,2,0,é\n1.5,a,,,,,1e-3,\n";
 
@@ -64,8 +80,14 @@ fn well_placed(text: &str, errors: &InputErrors) {
 }
 
 fn model_survives(text: &str) {
-    if let Err(errors) = Model::parse(text, "m.toml") {
-        well_placed(text, &errors);
+    match Model::parse(text, "m.toml") {
+        Err(errors) => well_placed(text, &errors),
+        Ok(model) => {
+            let rows = "time,range,bearing,px,u_f,u_a\n1,2,0.5,1,0,0\n2,2,0.6,1,0,0\n";
+            for track in parse_tracks(rows, "d.csv", &model).iter().flat_map(|tracks| &tracks.tracks) {
+                let _ = model.begin(track);
+            }
+        }
     }
 }
 
@@ -181,6 +203,16 @@ proptest! {
     }
 
     #[test]
+    fn a_mutated_continuous_model_is_read_or_refused(text in mutated(CONTINUOUS)) {
+        model_survives(&text);
+    }
+
+    #[test]
+    fn a_continuous_model_with_a_line_less_or_more_is_read_or_refused(text in relined(CONTINUOUS)) {
+        model_survives(&text);
+    }
+
+    #[test]
     fn a_model_with_a_line_less_or_more_is_read_or_refused(text in relined(MODEL)) {
         model_survives(&text);
     }
@@ -198,7 +230,7 @@ proptest! {
 
 #[test]
 fn the_texts_before_mutation_are_right() {
-    for text in [MODEL, STARTED] {
+    for text in [MODEL, STARTED, CONTINUOUS] {
         Model::parse(text, "m.toml").unwrap_or_else(|errors| panic!("{errors}"));
     }
     let model = Model::parse(MODEL, "m.toml").unwrap();
@@ -220,6 +252,9 @@ fn deep_and_large_inputs_are_refused_without_a_panic() {
         writeln!(lets, "c{i} = \"c{}*sin(c{})\"", i - 1, i - 1).unwrap();
     }
     model_survives(&MODEL.replace("[let]\n", &format!("[let]\n{lets}")));
+    let doubled = CONTINUOUS.replace("[let]\n", &format!("[let]\n{lets}"));
+    model_survives(&doubled.replace("u_f - a", "c199"));
+    model_survives(&CONTINUOUS.replace("[\"q\", 0]", &format!("[{}]", "0,".repeat(2000))));
     table_survives(&"\"".repeat(100_000));
     table_survives(&",".repeat(100_000));
     table_survives("time,px,u_a\n9999-12-31T23:59:59Z,1,1\n-9999-01-01T00:00:00Z,1,1\n");

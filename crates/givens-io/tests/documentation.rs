@@ -22,7 +22,7 @@ fn read(text: &str, name: &str) -> Model {
 
 #[test]
 fn every_model_of_the_pages_is_read() {
-    for (path, count) in [("docs/model-file.md", 4), ("README.md", 1)] {
+    for (path, count) in [("docs/model-file.md", 5), ("README.md", 1)] {
         let models = blocks(&page(path), "toml");
         assert_eq!(models.len(), count, "{path}");
         for text in models {

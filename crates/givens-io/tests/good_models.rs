@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use givens_core::model::{At, Observation, Transition};
+use givens_expr::ModelTransition;
 use givens_io::{Model, SettingValue};
 
 /// The turn of the design page, in discrete time.
@@ -46,6 +47,10 @@ rule = "unscented"
 fast = true
 "#;
 
+fn transition(model: &Model) -> &ModelTransition {
+    model.dynamics.discrete().unwrap()
+}
+
 #[test]
 fn the_design_page_is_understood() {
     let model = Model::parse(TURN, "turn.toml").unwrap_or_else(|errors| panic!("{errors}"));
@@ -56,7 +61,7 @@ fn the_design_page_is_understood() {
     assert_eq!(model.parameters[1].0, "q2");
     assert!((model.parameters[1].1 - 0.01).abs() < 1e-15);
     assert_eq!(model.controls, ["u_dx", "u_s"]);
-    assert_eq!(model.transition.period(), Some(0.5));
+    assert_eq!(model.step(), Some(0.5));
     assert_eq!(model.plane, Some([2, 0]));
     assert_eq!(model.measures(), 4);
     assert_eq!(model.sensors[0].measures, 0..2);
@@ -73,17 +78,17 @@ fn the_design_page_is_understood() {
 #[test]
 fn a_transition_by_name_is_put_in_the_order_of_the_states() {
     let model = Model::parse(TURN, "turn.toml").unwrap();
-    let p: Vec<f64> = model.transition.parameters().to_vec();
+    let p: Vec<f64> = transition(&model).parameters().to_vec();
     let at = At { t: 0.0, dt: 0.5, u: &[0.0, 0.0], p: &p };
     let mut next = [0.0; 5];
-    model.transition.transition(&at, &[1.0, 2.0, 3.0, 4.0, 0.1], &mut next);
+    transition(&model).transition(&at, &[1.0, 2.0, 3.0, 4.0, 0.1], &mut next);
     assert_eq!(next, [2.0, 2.0 - 0.2, 5.0, 4.0 + 0.1, 0.1]);
 }
 
 #[test]
 fn measures_stack_in_file_order_and_controls_reach_them() {
     let model = Model::parse(TURN, "turn.toml").unwrap();
-    let p: Vec<f64> = model.transition.parameters().to_vec();
+    let p: Vec<f64> = transition(&model).parameters().to_vec();
     let at = At { t: 0.0, dt: 0.0, u: &[7.0, 0.0], p: &p };
     let mut z = [0.0; 4];
     model.observation.observe(&at, &[3.0, 0.0, 4.0, 0.0, 0.0], &mut z);
@@ -111,7 +116,7 @@ std = ["s"]
     assert_eq!(model.prior.mean, [Some(6.0)]);
     assert_eq!(model.prior.cov, [9.0]);
     assert_eq!(model.parameters, [("m".to_string(), 3.0), ("s".to_string(), 9.0)]);
-    assert_eq!(model.transition.parameters(), [3.0, 9.0]);
+    assert_eq!(transition(&model).parameters(), [3.0, 9.0]);
     let wrong = Model::parse_with(text, "m.toml", &[("n", 3.0)]).unwrap_err();
     assert_eq!(
         wrong.to_string(),
@@ -152,7 +157,7 @@ fn start_finds_some_states_and_the_rest_keep_mean_and_std() {
     let start = model.start.as_ref().unwrap();
     assert_eq!((start.states.as_slice(), start.measures.as_slice()), (&[0, 2][..], &[0, 1][..]));
     let (mut found, mut slopes) = ([0.0; 2], [0.0; 4]);
-    start.function.evaluate(0.0, &[], &[], &[2.0, 0.0], &mut found, &mut slopes);
+    start.function.evaluate(&At { t: 0.0, dt: 0.0, u: &[], p: &[] }, &[2.0, 0.0], &mut found, &mut slopes);
     assert_eq!(found, [2.0, 0.0]);
     assert_eq!(slopes, [1.0, 0.0, 0.0, 2.0]);
 }

@@ -5,10 +5,11 @@ use crate::message::{Stop, count};
 use crate::method::{chosen, form, options};
 use crate::plan::model;
 use crate::stdout;
-use givens::model::{Noise, Transition};
+use givens::model::{Noise, Sde, Transition, Varies};
 use givens::registry::Choice;
 use givens::scalar::Shown;
-use givens_io::Model;
+use givens_expr::{ModelSde, ModelTransition};
+use givens_io::{Dynamics, Model};
 use std::io::{self, Write};
 
 /// Reads the model and its method, and tells sizes, sensors and parts.
@@ -30,22 +31,48 @@ fn parts(model: &Model, choice: &Choice) -> String {
     format!("{}: {}", choice.name, parts.join(", "))
 }
 
-fn tell(out: &mut dyn Write, model: &Model) -> io::Result<()> {
-    let n = model.states.len();
-    let sizes = format!("{}, {}", count(n, "state"), count(model.measures(), "measure"));
-    writeln!(out, "{}: a discrete-time model, {sizes}", model.file)?;
-    let step = match model.transition.period() {
+/// The steps of a discrete model.
+fn steps(transition: &ModelTransition) -> String {
+    let step = match transition.period() {
         Some(step) => format!("steps of {}", Shown(step)),
         None => "one transition per gap".to_owned(),
     };
-    let noisy = if model.transition.noise() == Noise::Root(0) { ", no process noise" } else { "" };
-    writeln!(out, "  time        {step}{noisy}")?;
+    let noisy = if transition.noise() == Noise::Root(0) { ", no process noise" } else { "" };
+    format!("{step}{noisy}")
+}
+
+/// The noise of a continuous model: the size of G, and what it depends on.
+fn diffusion(sde: &ModelSde) -> String {
+    let (n, q) = (sde.states(), sde.noises());
+    if q == 0 {
+        return "any gap, no process noise".to_owned();
+    }
+    let varies = match sde.diffusion_varies() {
+        Varies::Never => "",
+        Varies::WithTime => ", varying with time",
+        Varies::WithState => ", varying with the state",
+    };
+    format!("any gap, diffusion {n} × {q}{varies}")
+}
+
+fn tell(out: &mut dyn Write, model: &Model) -> io::Result<()> {
+    let n = model.states.len();
+    let sizes = format!("{}, {}", count(n, "state"), count(model.measures(), "measure"));
+    let (kind, time) = match &model.dynamics {
+        Dynamics::Discrete(transition) => ("a discrete-time", steps(transition)),
+        Dynamics::Continuous(sde) => ("a continuous-time", diffusion(sde)),
+    };
+    writeln!(out, "{}: {kind} model, {sizes}", model.file)?;
+    writeln!(out, "  time        {time}")?;
     let begins = match (model.time, &model.start) {
         (Some(_), _) if model.epoch.is_some() => {
             format!("at {}", model.epoch.map_or(String::new(), |epoch| epoch.to_string()))
         }
         (Some(time), _) => format!("at {}", Shown(time)),
-        (None, Some(_)) => "at the first row that `start` can read".to_owned(),
+        (None, Some(start)) => {
+            let row = if start.two_rows { "second" } else { "first" };
+            format!("at the {row} row that `start` can read")
+        }
         (None, None) => "at the first row of each track".to_owned(),
     };
     writeln!(out, "  begins      {begins}")?;

@@ -4,11 +4,12 @@ use crate::args::SimulateArgs;
 use crate::failure;
 use crate::files::{self, Sink};
 use crate::message::Stop;
-use crate::plan::{absent, ignored, model, source_name};
+use crate::plan::{absent, discrete, ignored, model, source_name};
 use crate::timetable::{bounded, regular};
 use givens::Row;
 use givens::filter::{Gaussian, StepError};
 use givens::simulate::{Stream, simulate as draw};
+use givens_expr::ModelTransition;
 use givens_io::{Drawn, Model, Track, Tracks, read_times, write_measurements, write_states};
 
 /// Draws the runs and writes their measurements, and their states if asked for. A run that fails does not stop the
@@ -20,6 +21,7 @@ pub fn simulate(args: &SimulateArgs) -> Result<(), Stop> {
         &[("-o", output), ("--states", states)],
     )?;
     let model = model(&args.model)?;
+    let transition = discrete(&model)?;
     let prior = prior(&model)?;
     let tracks = tracks(&model, args)?;
     let output = Sink::open(output)?;
@@ -27,7 +29,7 @@ pub fn simulate(args: &SimulateArgs) -> Result<(), Stop> {
     let (mut runs, mut failures) = (Vec::new(), Vec::new());
     for (at, track) in tracks.tracks.iter().enumerate() {
         for run in 0..args.runs {
-            match one(&model, &prior, track, args, at, run) {
+            match one(&model, transition, &prior, track, args, at, run) {
                 Ok(drawn) => runs.push(drawn),
                 Err(error) => failures.push(words(&model, args, track, run, &error)),
             }
@@ -68,6 +70,7 @@ fn tracks(model: &Model, args: &SimulateArgs) -> Result<Tracks, Stop> {
 
 fn one(
     model: &Model,
+    transition: &ModelTransition,
     prior: &Gaussian,
     track: &Track,
     args: &SimulateArgs,
@@ -76,7 +79,7 @@ fn one(
 ) -> Result<Drawn, StepError> {
     let mut stream = Stream::new(args.seed, u32::try_from(at).unwrap_or(u32::MAX), run);
     let rows = track.rows.iter().map(|row| Row { time: row.time, z: &row.z, u: &row.u });
-    let simulation = draw(&model.transition, &model.observation, rows, track.start, prior, &mut stream)?;
+    let simulation = draw(transition, &model.observation, rows, track.start, prior, &mut stream)?;
     Ok(Drawn {
         run,
         track: track.id.clone().or_else(|| (args.runs > 1).then(|| run.to_string())),

@@ -96,3 +96,61 @@ fn a_start_that_finds_no_number_is_told_with_its_row() {
         found.stderr
     );
 }
+
+/// Positions from a row, velocities from two.
+fn two_rows() -> String {
+    let start = "start = { x = \"px\", y = \"py\", vx = \"rate(x)\", vy = \"rate(y)\" }";
+    MODEL.replace("time = 0.0\nmean = [30, 1, 40, -2]\nstd = [5, 1, 5, 1]", start)
+}
+
+#[test]
+fn velocities_start_from_the_first_two_rows() {
+    let folder = folder("start_two");
+    let data = "time,range,bearing,px,py\n0,50,0.9,,\n1,,,10,20\n2,51,,,\n3,51,0.8,14,19\n4,52,0.7,16,18\n";
+    folder.write("model.toml", &two_rows()).write("data.csv", data);
+    let rows = folder.run("filter model.toml data.csv --format jsonl").good().objects();
+    for row in &rows[..3] {
+        assert!(row["mean"].is_null() && row["cov"].is_null() && row["nis_dof"].is_null());
+    }
+    assert_eq!(numbers(&rows[3]["mean"]), [14.0, 2.0, 19.0, -0.5]);
+    // R₁, R₁/T and 2 R/T² of R = [4 1; 1 4], T = 2
+    let cov = numbers(&rows[3]["cov"]);
+    let expected = [4.0, 2.0, 1.0, 0.5, 2.0, 2.0, 0.5, 0.5, 1.0, 0.5, 4.0, 2.0, 0.5, 0.5, 2.0, 2.0];
+    assert!(cov.iter().zip(expected).all(|(found, expected)| near(*found, expected)), "{cov:?}");
+    // neither row is used again
+    for key in ["predicted_mean", "measures", "innovation", "nis", "nis_dof", "log_likelihood"] {
+        assert!(rows[3][key].is_null(), "{key}");
+    }
+    assert_eq!(rows[4]["nis_dof"], 4);
+    let smoothed = folder.run("smooth model.toml data.csv --format jsonl").good().objects();
+    assert!(smoothed[2]["mean"].is_null() && numbers(&smoothed[3]["mean"]).len() == 4);
+    let told = folder.run("check model.toml").good().stdout;
+    assert!(told.contains("at the second row that `start` can read"), "{told}");
+}
+
+#[test]
+fn two_rows_at_one_time_have_no_rate() {
+    let folder = folder("start_at_once");
+    let data = "time,sensor,px,py\n1,,10,20\n1,gps,14,19\n2,gps,16,18\n";
+    folder.write("model.toml", &two_rows()).write("data.csv", data);
+    let found = folder.run("filter model.toml data.csv -o out.csv");
+    assert_eq!((found.code, folder.files().contains(&"out.csv".to_owned())), (2, false));
+    assert!(
+        found
+            .stderr
+            .contains("data.csv:3: `rate` needs two times, but this row and that of line 2 are at one"),
+        "{}",
+        found.stderr
+    );
+}
+
+#[test]
+fn a_track_of_one_row_has_no_rate() {
+    let folder = folder("start_one");
+    let data = "time,track_id,px,py\n1,a,10,20\n2,a,14,19\n2,b,16,18\n";
+    folder.write("model.toml", &two_rows()).write("data.csv", data);
+    let found = folder.run("filter model.toml data.csv -o out.csv");
+    assert_eq!(found.code, 2);
+    let words = "data.csv: track b: only one row has, where `rate` needs two, all that `start` reads: px, py";
+    assert!(found.stderr.contains(words), "{}", found.stderr);
+}

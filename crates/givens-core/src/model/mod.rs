@@ -15,7 +15,7 @@ pub use map::{
     Linear, Map, Moving, Sensed, linear_by_duals, linear_scratch, points_one_by_one, points_scratch,
 };
 pub use observation::Observation;
-pub use sde::{Sde, Varies};
+pub use sde::{Sde, Varies, expansion_by_duals, expansion_scratch};
 pub use transition::Transition;
 
 /// Where a model is evaluated: time, step, controls and parameters, all of the scalar's type, so that they

@@ -89,7 +89,7 @@ pub trait Sde {
     fn expansion_scratch(&self, points: usize) -> usize {
         let (n, beside) = (self.states(), self.controls() + self.parameters().len());
         let _ = points;
-        n * self.noises() + n + 3 * (2 * n + beside)
+        expansion_scratch(n, self.noises(), beside)
     }
 
     /// The drift and its two Itô derivatives at all points at once, component by component (docs/algorithms.md C2, C3):
@@ -105,44 +105,67 @@ pub trait Sde {
         lf: &mut [T],
         scratch: &mut [T],
     ) {
-        let (n, q) = (self.states(), self.noises());
-        let (g, rest) = scratch.split_at_mut(n * q);
-        let (here, rest) = rest.split_at_mut(n);
-        let (point, rest) = as_duals(rest).split_at_mut(n);
-        let (image, rest) = rest.split_at_mut(n);
-        let (u, rest) = rest.split_at_mut(at.u.len());
-        let p = &mut rest[..at.p.len()];
-        for (dual, &v) in u.iter_mut().zip(at.u).chain(p.iter_mut().zip(at.p)) {
-            *dual = Dual2::constant(v);
+        expansion_by_duals(self, at, points, x, f, l0, lf, scratch);
+    }
+}
+
+/// Scalars of scratch of [`expansion_by_duals`]; `beside` is the number of controls and parameters together.
+#[must_use]
+pub const fn expansion_scratch(n: usize, q: usize, beside: usize) -> usize {
+    let duals = n.saturating_mul(2).saturating_add(beside).saturating_mul(3);
+    n.saturating_mul(q).saturating_add(n).saturating_add(duals)
+}
+
+/// The drift and its two Itô derivatives by duals, point after point: what [`Sde::expansion_points`] provides, for
+/// models that override it and sometimes cannot do better.
+#[inline(always)]
+pub fn expansion_by_duals<T: Real, M: Sde + ?Sized>(
+    model: &M,
+    at: &At<T>,
+    points: usize,
+    x: &[T],
+    f: &mut [T],
+    l0: &mut [T],
+    lf: &mut [T],
+    scratch: &mut [T],
+) {
+    let (n, q) = (model.states(), model.noises());
+    let (g, rest) = scratch.split_at_mut(n * q);
+    let (here, rest) = rest.split_at_mut(n);
+    let (point, rest) = as_duals(rest).split_at_mut(n);
+    let (image, rest) = rest.split_at_mut(n);
+    let (u, rest) = rest.split_at_mut(at.u.len());
+    let p = &mut rest[..at.p.len()];
+    for (dual, &v) in u.iter_mut().zip(at.u).chain(p.iter_mut().zip(at.p)) {
+        *dual = Dual2::constant(v);
+    }
+    let (u, p) = (&*u, &*p);
+    let when = |speed: T| At { t: Dual2::along(at.t, speed), dt: Dual2::constant(at.dt), u, p };
+    for k in 0..points {
+        for i in 0..n {
+            here[i] = x[i * points + k];
         }
-        let (u, p) = (&*u, &*p);
-        let when = |speed: T| At { t: Dual2::along(at.t, speed), dt: Dual2::constant(at.dt), u, p };
-        for k in 0..points {
+        model.diffusion(at, here, g);
+        l0.iter_mut().skip(k).step_by(points).for_each(|sum| *sum = T::zero());
+        for j in 0..q.max(1) {
             for i in 0..n {
-                here[i] = x[i * points + k];
+                point[i] = Dual2::along(here[i], if q == 0 { T::zero() } else { g[i * q + j] });
             }
-            self.diffusion(at, here, g);
-            l0.iter_mut().skip(k).step_by(points).for_each(|sum| *sum = T::zero());
-            for j in 0..q.max(1) {
-                for i in 0..n {
-                    point[i] = Dual2::along(here[i], if q == 0 { T::zero() } else { g[i * q + j] });
-                }
-                self.drift(&when(T::zero()), point, image);
-                for i in 0..n {
-                    f[i * points + k] = image[i].v;
-                    l0[i * points + k] += T::of(0.5) * image[i].dd;
-                    if q > 0 {
-                        lf[(i * q + j) * points + k] = image[i].d;
-                    }
+            model.drift(&when(T::zero()), point, image);
+            for i in 0..n {
+                f[i * points + k] = image[i].v;
+                l0[i * points + k] += T::of(0.5) * image[i].dd;
+                if q > 0 {
+                    lf[(i * q + j) * points + k] = image[i].d;
                 }
             }
-            for i in 0..n {
-                point[i] = Dual2::along(here[i], f[i * points + k]);
-            }
-            self.drift(&when(T::one()), point, image);
-            for i in 0..n {
-                l0[i * points + k] += image[i].d;
-            }
+        }
+        for i in 0..n {
+            point[i] = Dual2::along(here[i], f[i * points + k]);
+        }
+        model.drift(&when(T::one()), point, image);
+        for i in 0..n {
+            l0[i * points + k] += image[i].d;
         }
     }
 }

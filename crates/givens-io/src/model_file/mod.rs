@@ -18,12 +18,14 @@ mod state;
 mod vocabulary;
 
 pub use beginning::{BeginError, Beginning};
+pub use dynamics::Dynamics;
 pub use filter::{FilterSettings, Setting, SettingValue};
 pub use sensor::Sensor;
 pub use start::Start;
 pub use state::Prior;
 
-use givens_expr::{ModelObservation, ModelTransition};
+use givens_core::model::{At, Transition};
+use givens_expr::ModelObservation;
 
 use crate::error::InputErrors;
 use crate::source::Source;
@@ -67,10 +69,10 @@ pub struct Model {
     pub epoch: Option<Calendar>,
     /// The initial belief, but for the states that `start` finds.
     pub prior: Prior,
-    /// What finds states from the first row of a track.
+    /// What finds states from the first row of a track, or its first two.
     pub start: Option<Start>,
     /// How the state moves.
-    pub transition: ModelTransition,
+    pub dynamics: Dynamics,
     /// What all sensors measure, stacked in file order.
     pub observation: ModelObservation,
     /// The sensors, in file order.
@@ -121,6 +123,11 @@ impl Model {
         self.sensors.last().map_or(0, |sensor| sensor.measures.end)
     }
 
+    /// The fixed length of a step, if the model is discrete and has one: a gap is then a whole number of them.
+    pub fn step(&self) -> Option<f64> {
+        self.dynamics.discrete().and_then(Transition::period)
+    }
+
     /// Where a row's measurement lies in the plane of the figure, if `start` can tell from this row.
     pub fn place(&self, row: &Row) -> Option<[f64; 2]> {
         let placement = self.placement.as_ref()?;
@@ -130,7 +137,8 @@ impl Model {
         }
         let p: Vec<f64> = self.parameters.iter().map(|(_, value)| *value).collect();
         let (mut found, mut slopes) = ([0.0; 2], vec![0.0; 2 * self.measures()]);
-        placement.function.evaluate(row.time, &row.u, &p, &row.z, &mut found, &mut slopes);
+        let at = At { t: row.time, dt: 0.0, u: &row.u, p: &p };
+        placement.function.evaluate(&at, &row.z, &mut found, &mut slopes);
         // The function finds states in ascending order.
         let [first, second] = self.plane?;
         let point = if first < second { found } else { [found[1], found[0]] };

@@ -53,8 +53,12 @@ fn sections(findings: &Findings, document: &[Entry], given: &[(&str, f64)]) -> O
     };
     let state_section =
         need("state", "[state]", state::KEYS, "begin it with [state] and `names`, the names of the states");
-    let dynamics_section =
-        need("dynamics", "[dynamics]", dynamics::KEYS, "begin it with [dynamics] and `transition`");
+    let dynamics_section = need(
+        "dynamics",
+        "[dynamics]",
+        dynamics::KEYS,
+        "begin it with [dynamics] and `transition` or `drift`",
+    );
 
     let mut names = Names::new(findings);
     let states = state_section.and_then(|section| state::names(findings, &section, &mut names));
@@ -81,14 +85,15 @@ fn sections(findings: &Findings, document: &[Entry], given: &[(&str, f64)]) -> O
 
     let state_section = state_section?;
     let time = state::time(&mut context, &state_section);
-    let found = if sketches.is_some() {
-        start::read(&mut context, &state_section, &states)
+    let found = if let Some(sketches) = &sketches {
+        let measures = sketches.iter().map(|sketch| sketch.columns.len()).sum();
+        start::read(&mut context, &state_section, &states, measures)
     } else {
         start::Found::default()
     };
     let prior = state::prior(&mut context, &state_section, &states, &found.started);
     context.step = dynamics_section.and_then(|section| dynamics::step(&mut context, &section));
-    let transition = dynamics_section.and_then(|section| dynamics::read(&mut context, &section, &states));
+    let dynamics = dynamics_section.and_then(|section| dynamics::read(&mut context, &section, &states));
     let observed = sketches.as_ref().and_then(|sketches| sensor::read(&mut context, sketches, states.len()));
     let plane = entry("plot")
         .and_then(|entry| Section::of(findings, "[plot]", entry, &["plane"]))
@@ -102,6 +107,8 @@ fn sections(findings: &Findings, document: &[Entry], given: &[(&str, f64)]) -> O
     let start = start::function(&mut context, &found, &started, measures);
     let placement =
         plane.and_then(|[i, j]| start::function(&mut context, &found, &[i.min(j), i.max(j)], measures));
+    // a single row cannot place a rate
+    let placement = placement.filter(|placement| !placement.two_rows);
     let (time, epoch) = time?;
     Some(Model {
         file: findings.source.name.clone(),
@@ -112,7 +119,7 @@ fn sections(findings: &Findings, document: &[Entry], given: &[(&str, f64)]) -> O
         epoch,
         prior: prior?,
         start,
-        transition: transition?,
+        dynamics: dynamics?,
         observation,
         sensors,
         plane,

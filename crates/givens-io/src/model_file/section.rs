@@ -141,6 +141,7 @@ impl Named<'_> {
                 "`transition`" => {
                     format!("a state that stays as it is has the transition {first} = \"{first}\"")
                 }
+                "`drift`" => format!("a state that stays as it is has the drift {first} = 0"),
                 _ => format!("add {first} = …"),
             };
             let message = format!("{what} leaves out the {}{plural} {names}", self.noun);

@@ -32,7 +32,7 @@ pub struct Sensor {
 pub(super) struct Sketch<'a> {
     section: Section<'a>,
     name: Option<String>,
-    columns: Vec<String>,
+    pub columns: Vec<String>,
     expressions: Vec<&'a Value>,
 }
 

@@ -13,6 +13,8 @@ pub(super) enum Role {
     Let,
     Transition,
     ProcessNoise,
+    Drift,
+    Diffusion,
     Measure,
     MeasurementNoise,
     Start,
@@ -26,7 +28,9 @@ impl Role {
         let may = match input {
             Input::Parameter(_) => true,
             Input::Time | Input::Control(_) => self != Role::Fixed,
-            Input::State(_) => matches!(self, Role::Let | Role::Transition | Role::Measure),
+            Input::State(_) => {
+                matches!(self, Role::Let | Role::Transition | Role::Drift | Role::Diffusion | Role::Measure)
+            }
             Input::Step => matches!(self, Role::Let | Role::Transition | Role::ProcessNoise),
             Input::Measure(_) => self == Role::Start,
         };
@@ -35,6 +39,9 @@ impl Role {
         }
         Some(match (self, input) {
             (Role::Fixed, _) => "only numbers and parameters may, since this is evaluated before any data",
+            (Role::Drift | Role::Diffusion, Input::Step) => {
+                "drift and diffusion are rates, which hold at a moment; only `transition` and `noise_cov` have a step"
+            }
             (_, Input::Step) => "a measurement has no step; only transition and noise_cov depend on `dt`",
             (Role::Start, _) => "`start` finds the states from measures; use their names",
             (_, Input::State(_)) => {
@@ -175,7 +182,12 @@ fn or_control(scope: &Scope, name: &str) -> String {
 }
 
 fn is_broken(graph: &Graph, scope: &Scope, name: &str) -> bool {
-    matches!(scope.get(name), Some(Meaning::Is(node)) if graph.inputs_of(*node).contains(&BROKEN))
+    matches!(scope.get(name), Some(Meaning::Is(node)) if is_broken_node(graph, *node))
+}
+
+/// Whether a node is made of what was found wrong.
+pub(super) fn is_broken_node(graph: &Graph, node: Node) -> bool {
+    graph.inputs_of(node).contains(&BROKEN)
 }
 
 /// The controls that expressions in a value use, each with the byte where it stands.

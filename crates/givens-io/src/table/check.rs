@@ -1,6 +1,5 @@
 //! The order of rows in time.
 
-use givens_core::model::Transition;
 use givens_core::scalar::Shown;
 
 use super::cell::short;
@@ -129,7 +128,7 @@ impl Check<'_> {
 
     /// With a fixed step, a gap is a whole number of them.
     fn steps(&self, k: usize, gap: f64, from: f64, there: &str) {
-        let Some(step) = self.model.transition.period() else { return };
+        let Some(step) = self.model.step() else { return };
         let Some(row) = self.rows.get(k) else { return };
         let steps = gap / step;
         let here = short(&row.time_text);

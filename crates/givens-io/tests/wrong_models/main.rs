@@ -1,7 +1,9 @@
 //! Wrong model files: each is a small slip in a right one, and its error tells where, what, and the remedy.
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
+mod continuous;
 mod names;
+mod rates;
 mod shape;
 mod values;
 
@@ -38,13 +40,18 @@ method = "sr-ckf"
 "#;
 
 /// What is replaced, by what, and the first error then: line, column, words of the message, words of the help.
-struct Case(&'static str, &'static str, (usize, usize), &'static str, &'static str);
+struct Case<'a>(&'a str, &'a str, (usize, usize), &'a str, &'a str);
 
 fn check(cases: &[Case]) {
+    check_in(RIGHT, cases);
+}
+
+/// Slips in a right file.
+fn check_in(right: &str, cases: &[Case]) {
     let mut failures = String::new();
     for Case(from, to, position, message, help) in cases {
-        assert!(RIGHT.contains(from), "the right file does not hold {from:?}");
-        let text = RIGHT.replacen(from, to, 1);
+        assert!(right.contains(from), "the right file does not hold {from:?}");
+        let text = right.replacen(from, to, 1);
         let Err(told) = Model::parse(&text, "model.toml") else {
             writeln!(failures, "{to:?}: was taken for right\n").unwrap();
             continue;

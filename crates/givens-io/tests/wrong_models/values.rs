@@ -139,22 +139,8 @@ fn two_statements_of_one_thing_are_told() {
     ]);
 }
 
-#[test]
-fn what_is_still_to_come_is_told_plainly() {
-    check(&[
-        Case("transition =", "drift =", (11, 1), "`drift` makes the model continuous", "`transition`"),
-        Case(
-            "[dynamics]",
-            "[dynamics]\ndiffusion = [1, 1, 1]",
-            (11, 1),
-            "`diffusion` makes the model continuous",
-            "",
-        ),
-    ]);
-}
-
 /// [`RIGHT`] with `start` in place of time, mean and std.
-fn with_start(state: &str) -> Vec<(usize, usize, String)> {
+pub(super) fn with_start(state: &str) -> Vec<(usize, usize, String)> {
     let text = RIGHT.replace("time = 0.0\nmean = [1, 2, 3]\nstd = { x = 1, vx = 1, y = 2 }", state);
     let errors = Model::parse(&text, "m.toml").map(|_| ()).expect_err(state).errors;
     errors.into_iter().map(|error| (error.position().0, error.position().1, error.message)).collect()
@@ -185,7 +171,6 @@ fn slips_in_start_are_told() {
     );
     told(&format!("{start}std = [1]"), 1, 2, "[state] has no `mean`");
     let one = "mean = { vx = 0, y = 0 }\nstd = { vx = 1, y = 1 }";
-    told(&format!("start = {{ x = \"rate(px)\" }}\n{one}"), 3, 16, "`rate`");
     told(&format!("start = {{ x = \"y\" }}\n{one}"), 3, 16, "`y` may not stand here");
     told(&format!("start = {{ x = \"rnge\" }}\n{one}"), 3, 16, "unknown name `rnge` in the start of `x`");
     told(&format!("start = {{ x = \"2*q\" }}\n{one}"), 3, 15, "names no measure");

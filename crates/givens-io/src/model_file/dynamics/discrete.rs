@@ -1,19 +1,17 @@
-//! `[dynamics]`: how the state moves.
+//! The dynamics of a discrete model: `transition`, `noise_cov` and `step`.
 
 use givens_core::scalar::Shown;
 use givens_expr::{ModelTransition, Node, TransitionParts};
 
-use super::context::Context;
-use super::covariance::covariance;
-use super::section::{Named, Section};
-use super::vocabulary::Role;
-
-/// Keys of the section.
-pub(super) const KEYS: &[&str] = &["transition", "noise_cov", "step", "drift", "diffusion"];
+use super::super::context::Context;
+use super::super::covariance::covariance;
+use super::super::section::{Named, Section};
+use super::super::vocabulary::Role;
+use super::is_continuous;
 
 /// The fixed length of a step, if the model has one. The rest of the section may depend on it.
-pub(super) fn step(context: &mut Context, section: &Section) -> Option<f64> {
-    let entry = section.get("step")?;
+pub(in crate::model_file) fn step(context: &mut Context, section: &Section) -> Option<f64> {
+    let entry = section.get("step").filter(|_| !is_continuous(section))?;
     let scope = context.scope(Role::Fixed);
     let step = context.number(&scope, &entry.value, "`step`")?;
     if step <= 0.0 {
@@ -25,10 +23,11 @@ pub(super) fn step(context: &mut Context, section: &Section) -> Option<f64> {
 }
 
 /// Reads the transition and its noise.
-pub(super) fn read(context: &mut Context, section: &Section, states: &[String]) -> Option<ModelTransition> {
-    if continuous(context, section) {
-        return None;
-    }
+pub(in crate::model_file) fn read(
+    context: &mut Context,
+    section: &Section,
+    states: &[String],
+) -> Option<ModelTransition> {
     let next = transition(context, section, states);
     let noise_cov = match section.get("noise_cov") {
         None => Some(Vec::new()),
@@ -56,16 +55,6 @@ pub(super) fn read(context: &mut Context, section: &Section, states: &[String]) 
             None
         }
     }
-}
-
-/// Continuous models are not there yet; this is told plainly.
-fn continuous(context: &Context, section: &Section) -> bool {
-    let Some(entry) = section.get("drift").or_else(|| section.get("diffusion")) else { return false };
-    let message =
-        format!("`{}` makes the model continuous in time, which this version does not read yet", entry.key);
-    let help = "write `transition` and `noise_cov`, in `dt`, for a discrete model";
-    context.findings.wrong_help(&entry.span, message, help);
-    true
 }
 
 fn transition(context: &mut Context, section: &Section, states: &[String]) -> Option<Vec<Node>> {

@@ -1,7 +1,7 @@
 //! Every method of the registry with every value of an option that makes a difference.
 
 use givens::filter::Block;
-use givens::registry::{Choice, ENTRIES, FormName, OPTIONS, RuleName, Setting, Value, resolve};
+use givens::registry::{Choice, ENTRIES, FormName, Kind, OPTIONS, Reader, RuleName, Setting, Value, resolve};
 
 /// The settings to try with a rule. An option of the registry that has no place here fails the tests.
 fn settings(rule: RuleName) -> Vec<Vec<(&'static str, f64)>> {
@@ -17,18 +17,29 @@ fn settings(rule: RuleName) -> Vec<Vec<(&'static str, f64)>> {
         RuleName::CentralDifference => [1.0, 1.5, 3f64.sqrt(), 2.5].map(|eta| vec![("eta", eta)]).to_vec(),
         _ => vec![vec![]],
     };
-    for option in OPTIONS.iter().filter(|option| option.rule == Some(rule)) {
+    for option in OPTIONS.iter().filter(|option| option.reader == Reader::Rule(rule)) {
         let tried = all.iter().flatten().any(|(key, _)| *key == option.key);
         assert!(tried, "no value of `{}` is tried", option.key);
     }
     all
 }
 
-/// Every method for a state of length n, by a name that tells its options. Grids beyond a thousand points are left out.
+/// Every discrete method for a state of length n, by a name that tells its options. Grids beyond a thousand points are left
+/// out.
 #[must_use]
 pub fn choices(n: usize) -> Vec<(String, Choice)> {
+    of_kind(Kind::Discrete, n)
+}
+
+/// The same of the methods for continuous models.
+#[must_use]
+pub fn continuous_choices(n: usize) -> Vec<(String, Choice)> {
+    of_kind(Kind::Continuous, n)
+}
+
+fn of_kind(kind: Kind, n: usize) -> Vec<(String, Choice)> {
     let mut all = Vec::new();
-    for entry in ENTRIES {
+    for entry in ENTRIES.iter().filter(|entry| entry.kind() == kind) {
         let updates: &[&str] =
             if entry.form == FormName::SquareRoot { &["joint", "separate"] } else { &[""] };
         for numbers in settings(entry.rule) {

@@ -1,7 +1,7 @@
 //! The answers of linear problems, by plain matrix algebra and by three roads that have nothing in common: the Kalman
 //! filter with the Rauch–Tung–Striebel smoother, stacked least squares, and conditioning of one large Gaussian.
 
-use crate::models::Problem;
+use crate::models::{Problem, Sensor};
 use nalgebra::{DMatrix, DVector};
 
 /// A mean and a covariance.
@@ -19,11 +19,10 @@ pub struct Answer {
     pub log_likelihood: Vec<f64>,
 }
 
-/// H, R and z of the components of row `k` that are there.
-fn measured(problem: &Problem, k: usize) -> (DMatrix<f64>, DMatrix<f64>, DVector<f64>) {
-    let z = &problem.z[k];
+/// H, R and z of the components of a row that are there.
+fn measured(sensor: &Sensor, z: &[f64]) -> (DMatrix<f64>, DMatrix<f64>, DVector<f64>) {
     let there: Vec<usize> = (0..z.len()).filter(|&i| !z[i].is_nan()).collect();
-    let sensor = problem.sensor.only(&there);
+    let sensor = sensor.only(&there);
     (sensor.h, sensor.r, DVector::from_iterator(there.len(), there.iter().map(|&i| z[i])))
 }
 
@@ -49,13 +48,25 @@ fn log_density(nu: &DVector<f64>, s: &DMatrix<f64>) -> f64 {
 /// The Kalman filter and the Rauch–Tung–Striebel smoother.
 #[must_use]
 pub fn kalman(problem: &Problem) -> Answer {
-    let (f, q) = (&problem.model.f, &problem.model.q);
+    let step = (problem.model.f.clone(), problem.model.q.clone());
+    let prior = (DVector::from_vec(problem.mean.clone()), problem.cov.clone());
+    kalman_over(prior, &vec![step; problem.z.len()], &problem.sensor, &problem.z)
+}
+
+/// The same over the transition matrix F and the noise covariance Q of each step, after which a row of `z` is measured.
+#[must_use]
+pub fn kalman_over(
+    prior: Moments,
+    steps: &[(DMatrix<f64>, DMatrix<f64>)],
+    sensor: &Sensor,
+    z: &[Vec<f64>],
+) -> Answer {
     let (mut predicted, mut filtered, mut log_likelihood) = (Vec::new(), Vec::new(), Vec::new());
-    let mut belief: Moments = (DVector::from_vec(problem.mean.clone()), problem.cov.clone());
-    for k in 0..problem.z.len() {
+    let mut belief = prior;
+    for ((f, q), z) in steps.iter().zip(z) {
         let (mean, cov) = (f * &belief.0, f * &belief.1 * f.transpose() + q);
         predicted.push((mean.clone(), cov.clone()));
-        let (h, r, z) = measured(problem, k);
+        let (h, r, z) = measured(sensor, z);
         belief = if z.is_empty() {
             log_likelihood.push(0.0);
             (mean, cov)
@@ -69,7 +80,7 @@ pub fn kalman(problem: &Problem) -> Answer {
     }
     let mut smoothed = vec![belief];
     for k in (0..filtered.len() - 1).rev() {
-        let ((mean, cov), (m, p)) = (&filtered[k], &predicted[k + 1]);
+        let ((mean, cov), (m, p), f) = (&filtered[k], &predicted[k + 1], &steps[k + 1].0);
         let gain = cov * f.transpose() * p.clone().pseudo_inverse(1e-12).unwrap();
         let (next_mean, next_cov) = &smoothed[smoothed.len() - 1];
         smoothed.push((mean + &gain * (next_mean - m), cov + &gain * (next_cov - p) * gain.transpose()));
@@ -99,7 +110,7 @@ pub fn least_squares(problem: &Problem) -> Vec<Moments> {
     add(place(0, &eye), DVector::from_vec(problem.mean.clone()), &problem.cov);
     for k in 0..count {
         add(place(k + 1, &eye) - place(k, &problem.model.f), DVector::zeros(n), &problem.model.q);
-        let (h, r, z) = measured(problem, k);
+        let (h, r, z) = measured(&problem.sensor, &problem.z[k]);
         if !z.is_empty() {
             add(place(k + 1, &h), z, &r);
         }
@@ -128,7 +139,7 @@ pub fn conditioned(problem: &Problem, until: usize) -> Vec<Moments> {
     }
     let (mut rows, mut target) = (DMatrix::zeros(0, size), DVector::zeros(0));
     for k in 0..until {
-        let (h, r, z) = measured(problem, k);
+        let (h, r, z) = measured(&problem.sensor, &problem.z[k]);
         let at = rows.nrows();
         rows = rows.insert_rows(at, z.len(), 0.0);
         target = target.insert_rows(at, z.len(), 0.0);

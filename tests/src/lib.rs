@@ -5,6 +5,7 @@ pub mod exact;
 pub mod ill_conditioned;
 pub mod models;
 pub mod scenario;
+pub mod sde;
 
 // the examples of the README run with those of the documentation
 #[cfg(doctest)]

@@ -33,7 +33,7 @@ pub struct Sensor {
     pub r: DMatrix<f64>,
 }
 
-fn row<T: Real>(matrix: &DMatrix<f64>, i: usize, x: &[T]) -> T {
+pub(crate) fn row<T: Real>(matrix: &DMatrix<f64>, i: usize, x: &[T]) -> T {
     x.iter().enumerate().fold(T::zero(), |sum, (j, &x)| T::of(matrix[(i, j)]).mul_add(x, sum))
 }
 

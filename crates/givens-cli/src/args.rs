@@ -39,7 +39,8 @@ pub enum Command {
     #[command(after_help = "Examples:
   givens simulate turn.toml --steps 100 --seed 1 -o radar.csv --states truth.csv
   givens simulate turn.toml --until 60 --every 0.5 --runs 9 --seed 7 -o runs.csv
-  givens simulate turn.toml --times radar.csv --seed 1    the rows of a table")]
+  givens simulate turn.toml --times radar.csv --seed 1    the rows of a table
+  givens simulate flight.toml --until 60 --every 2 --substeps 32 --seed 1    of a continuous model")]
     Simulate(SimulateArgs),
     /// Run several methods over the same data, side by side
     #[command(after_help = "Examples:
@@ -74,7 +75,8 @@ pub struct ModelArgs {
 
 #[derive(Debug, ClapArgs)]
 pub struct MethodArgs {
-    /// Method by its registry name (see `givens methods`); without it, that of the file, or sr-ckf
+    /// Method by its registry name (see `givens methods`); without it, that of the file, or sr-ckf (sr-cd-ckf for a
+    /// continuous model)
     #[arg(long, short, value_name = "METHOD")]
     pub method: Option<String>,
     /// A part or an option of the method
@@ -88,6 +90,15 @@ pub enum FormatArg {
     Csv,
     /// One JSON object per row, with all matrices, in numbers that read back exactly
     Jsonl,
+}
+
+/// How the path of a continuous model is followed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum SchemeArg {
+    /// The Itô–Taylor scheme of strong order 1.5
+    ItoTaylor,
+    /// Euler and Maruyama's, of order 1; ½ where the diffusion depends on the state
+    EulerMaruyama,
 }
 
 #[derive(Debug, ClapArgs)]
@@ -141,6 +152,16 @@ pub struct SimulateArgs {
     /// the cells that are filled are drawn
     #[arg(long, value_name = "DATA")]
     pub times: Option<String>,
+    /// Of a continuous model, how its path is followed; without it ito-taylor, or euler-maruyama where the diffusion
+    /// depends on the state
+    #[arg(long, value_enum)]
+    pub scheme: Option<SchemeArg>,
+    /// Of a continuous model, into how many steps each gap is divided: 16 without it
+    #[arg(long, value_name = "N", value_parser = whole, allow_negative_numbers = true, conflicts_with = "max_step")]
+    pub substeps: Option<usize>,
+    /// Of a continuous model, the longest step of its path
+    #[arg(long, value_name = "DT", value_parser = number, allow_negative_numbers = true)]
+    pub max_step: Option<f64>,
     /// Independent runs, each a track
     #[arg(long, value_name = "N", default_value = "1", value_parser = runs, allow_negative_numbers = true)]
     pub runs: u32,

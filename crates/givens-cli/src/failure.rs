@@ -1,8 +1,10 @@
 //! What failed, in the names of the model.
 
-use givens::filter::{Fault, Matrix, Quantity, StepError};
-use givens::registry::FormName;
-use givens_io::{Model, Row, Track};
+use crate::report::digits;
+use givens::filter::{Fault, Halt, Matrix, Quantity, StepError};
+use givens::ode::Solver;
+use givens::registry::{Choice, FormName, TimeName};
+use givens_io::{Dynamics, Model, Row, Track};
 
 /// Where something failed: the row of a table, and the track and the time.
 pub fn place(data: &str, track: &Track, row: &Row, time: f64) -> String {
@@ -10,13 +12,13 @@ pub fn place(data: &str, track: &Track, row: &Row, time: f64) -> String {
     format!("{data}:{}: {name}t = {}", row.line, track.time_text(time))
 }
 
-/// Why a step failed, by the names of the model; `what` was at work at `place`, in this form if it has one.
-pub fn told(model: &Model, place: &str, what: &str, form: Option<FormName>, error: &StepError) -> String {
-    format!("{place}, step {}: the {what} failed: {}", error.step, fault(model, form, &error.fault))
+/// Why a step failed, by the names of the model; `what` was at work at `place`, by this method if it has one.
+pub fn told(model: &Model, place: &str, what: &str, choice: Option<&Choice>, error: &StepError) -> String {
+    format!("{place}, step {}: the {what} failed: {}", error.step, fault(model, choice, &error.fault))
 }
 
 /// A fault with the model's own names.
-fn fault(model: &Model, form: Option<FormName>, fault: &Fault) -> String {
+fn fault(model: &Model, choice: Option<&Choice>, fault: &Fault) -> String {
     let state =
         |i: usize| model.states.get(i).map_or_else(|| (i + 1).to_string(), |name| format!("`{name}`"));
     let columns: Vec<&String> = model.sensors.iter().flat_map(|sensor| &sensor.columns).collect();
@@ -27,7 +29,7 @@ fn fault(model: &Model, form: Option<FormName>, fault: &Fault) -> String {
                 Matrix::Innovation | Matrix::MeasurementNoise => ("measure", measure(pivot)),
                 _ => ("state", state(pivot)),
             };
-            let remedy = remedy(matrix, form);
+            let remedy = remedy(model, matrix, choice.map(|choice| choice.form));
             format!(
                 "the {} is not positive definite at pivot {} ({kind} {name}); {remedy}",
                 matrix.name(),
@@ -48,15 +50,32 @@ fn fault(model: &Model, form: Option<FormName>, fault: &Fault) -> String {
         Fault::NotFinite { quantity, component } => match quantity {
             Quantity::TransitionDerivative => format!(
                 "the derivative of the transition of {}, with respect to the state at the mean, is not a finite number; \
-                 {SMOOTH}",
-                state(component)
+                 {}",
+                state(component),
+                smooth(model)
             ),
             Quantity::ObservationDerivative => format!(
                 "the derivative of the predicted measure {}, with respect to the state at the mean, is not a finite \
-                 number; {SMOOTH}",
-                measure(component)
+                 number; {}",
+                measure(component),
+                smooth(model)
             ),
-            Quantity::Transition | Quantity::Estimate | Quantity::ProcessNoise => {
+            Quantity::DriftDerivative => format!(
+                "a derivative of the drift of {}, with respect to the state, is not a finite number; use a method without \
+                 derivatives (--method sr-cd-ckf2), or start off that point",
+                state(component)
+            ),
+            Quantity::Drift if choice.is_some_and(|choice| choice.time_update == TimeName::ItoTaylor) => {
+                format!(
+                    "the drift of {}, or a derivative of it in the expansion, is not a finite number; {DOMAIN}",
+                    state(component)
+                )
+            }
+            Quantity::Transition
+            | Quantity::Drift
+            | Quantity::Diffusion
+            | Quantity::Estimate
+            | Quantity::ProcessNoise => {
                 format!("the {} of {} is not a finite number; {DOMAIN}", quantity.name(), state(component))
             }
             Quantity::Observation | Quantity::MeasurementNoise | Quantity::Measurement => {
@@ -64,8 +83,38 @@ fn fault(model: &Model, form: Option<FormName>, fault: &Fault) -> String {
             }
             _ => fault.to_string(),
         },
+        Fault::SingularFactor { pivot } => format!(
+            "the factor of the covariance is singular at pivot {} (state {}): it is known exactly, and this time update \
+             divides by the factor; --set time_update=ito-taylor does not",
+            pivot + 1,
+            state(pivot)
+        ),
+        Fault::Solver { why: Halt::StepLimit { limit }, smallest } => {
+            let stiff = choice.is_some_and(|choice| choice.integrator.solver == Solver::Rodas4);
+            let remedy = if stiff {
+                "loosen rtol, set atol, or give the states noise"
+            } else {
+                "the drift is likely stiff: --set solver=rodas4 is for that; or loosen rtol"
+            };
+            format!(
+                "the solver came no further than this time in its {limit} steps, the smallest of {smallest:.2e}; {remedy}"
+            )
+        }
+        Fault::Solver { why: Halt::StepTooSmall, smallest } => format!(
+            "the solver came no further than this time: no step of at least {smallest:.2e} meets the tolerance; loosen \
+             rtol, or set atol"
+        ),
         _ => fault.to_string(),
     }
+}
+
+/// The mean from which a step set out that failed on a number or in a solver; nothing for other faults.
+pub fn set_out(model: &Model, mean: &[f64], fault: &Fault) -> String {
+    if mean.is_empty() || !matches!(fault, Fault::NotFinite { .. } | Fault::Solver { .. }) {
+        return String::new();
+    }
+    let values = model.states.iter().zip(mean).map(|(name, x)| format!("{name} = {}", digits(*x)));
+    format!("\n  the step set out from {}", values.collect::<Vec<_>>().join(", "))
 }
 
 /// Where numbers that are none come from.
@@ -73,19 +122,33 @@ const DOMAIN: &str =
     "look for a division by zero, the root of a negative number, or an estimate that runs away";
 
 /// The way out of a point where a model has no derivative.
-const SMOOTH: &str = "use a method without derivatives (--method sr-ckf), or start off that point";
+fn smooth(model: &Model) -> String {
+    format!("use a method without derivatives (--method {}), or start off that point", plain(model))
+}
+
+/// A method without negative weights, of either form's kind, for this model.
+fn plain(model: &Model) -> &'static str {
+    match model.dynamics {
+        Dynamics::Discrete(_) => "sr-ckf",
+        Dynamics::Continuous(_) => "sr-cd-ckf2",
+    }
+}
 
 /// The way out of a covariance that does not exist.
-fn remedy(matrix: Matrix, form: Option<FormName>) -> &'static str {
+fn remedy(model: &Model, matrix: Matrix, form: Option<FormName>) -> String {
+    let plain = plain(model);
     match (matrix, form) {
-        (Matrix::ProcessNoise | Matrix::MeasurementNoise, _) => "check its expressions at this time",
-        (Matrix::Prior, _) => "check the initial covariance",
-        (Matrix::Conditional, _) => {
-            "smooth in covariance form (--set form=covariance), or by a rule without negative weights (sr-ckf)"
+        (Matrix::ProcessNoise | Matrix::MeasurementNoise, _) => {
+            "check its expressions at this time".to_owned()
         }
-        (_, Some(FormName::Covariance)) => {
-            "try the square-root form (--set form=square-root), a rule without negative weights (ckf), or more noise"
-        }
-        _ => "try a rule without negative weights (sr-ckf), or more noise",
+        (Matrix::Prior, _) => "check the initial covariance".to_owned(),
+        (Matrix::Conditional, _) => format!(
+            "smooth in covariance form (--set form=covariance), or by a rule without negative weights ({plain})"
+        ),
+        (_, Some(FormName::Covariance)) => format!(
+            "try the square-root form (--set form=square-root), a rule without negative weights ({}), or more noise",
+            plain.trim_start_matches("sr-")
+        ),
+        _ => format!("try a rule without negative weights ({plain}), or more noise"),
     }
 }

@@ -8,6 +8,7 @@ mod figure;
 mod files;
 mod message;
 mod method;
+mod paths;
 mod plan;
 mod progress;
 mod report;

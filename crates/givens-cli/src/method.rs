@@ -2,12 +2,13 @@
 
 use crate::args::MethodArgs;
 use crate::message::{Stop, say};
-use givens::registry::{Choice, FormName, RuleName, Setting, SettingError, Value, find, resolve};
+use givens::filter::Fault;
+use givens::registry::{
+    Choice, FormName, Kind, RuleName, Setting, SettingError, TimeName, Value, default_method, find, resolve,
+};
+use givens::scalar::Shown;
 use givens_expr::suggest;
-use givens_io::{Location, Model, SettingValue};
-
-/// The method where neither the file nor the command line names one: the best of this version, not the oldest.
-const DEFAULT: &str = "sr-ckf";
+use givens_io::{Dynamics, Location, Model, SettingValue};
 
 /// A method's name from the command line, and the option that brought it.
 #[derive(Clone, Copy)]
@@ -64,13 +65,16 @@ pub fn setting(text: &str) -> Result<Typed, Stop> {
 pub fn choose(model: &Model, named: Option<Named>, own: &[Typed]) -> Result<Choice, Stop> {
     let file = &model.filter;
     let of_file = file.method.as_ref().map(|(name, _)| name.as_str());
-    let method = named.map(|named| named.name).or(of_file).unwrap_or(DEFAULT);
+    let method = named.map(|named| named.name).or(of_file).unwrap_or(default_method(kind(model)));
     let mut settings = of_the_file(model, named);
     settings.extend(own.iter().map(|own| (own.setting.clone(), Source::Line(format!("--set {}", own.text)))));
     loop {
         let plain: Vec<Setting> = settings.iter().map(|(setting, _)| setting.clone()).collect();
         let error = match resolve(method, &plain) {
-            Ok(choice) => return in_range(model, choice, &settings),
+            Ok(choice) => match choice.serves(kind(model)) {
+                Ok(()) => return in_range(model, choice, &settings),
+                Err(error) => error,
+            },
             Err(error) => error,
         };
         let Some(at) = error.setting else {
@@ -99,7 +103,7 @@ pub fn choose(model: &Model, named: Option<Named>, own: &[Typed]) -> Result<Choi
     }
 }
 
-/// The settings of `[filter]`. The rule and the form are those of a method named on the command line.
+/// The settings of `[filter]`. The rule, the form and the time update are those of a method named on the command line.
 fn of_the_file<'m>(model: &'m Model, named: Option<Named>) -> Vec<Sourced<'m>> {
     let mut settings = Vec::new();
     for setting in &model.filter.options {
@@ -112,6 +116,7 @@ fn of_the_file<'m>(model: &'m Model, named: Option<Named>) -> Vec<Sourced<'m>> {
             let own = match setting.key.as_str() {
                 "rule" => Some(entry.rule.word()),
                 "form" => Some(entry.form.word()),
+                "time_update" => Some(entry.time_update.word()),
                 _ => None,
             };
             if let Some(own) = own {
@@ -128,7 +133,7 @@ fn of_the_file<'m>(model: &'m Model, named: Option<Named>) -> Vec<Sourced<'m>> {
 
 /// The choice, if its options are in their ranges for this model.
 fn in_range(model: &Model, choice: Choice, settings: &[Sourced]) -> Result<Choice, Stop> {
-    let Err(error) = choice.check(model.states.len()) else { return Ok(choice) };
+    let Err(error) = choice.check(model.states.len()) else { return for_model(model, choice) };
     let help = error.must.contains("(n:").then(|| format!("the model has n = {}", model.states.len()));
     let found = settings.iter().rev().find(|(setting, _)| setting.key == error.option);
     let stop = match found {
@@ -140,6 +145,21 @@ fn in_range(model: &Model, choice: Choice, settings: &[Sourced]) -> Result<Choic
         Some(help) => stop.help(help),
         None => stop,
     })
+}
+
+/// The choice, if its time update serves this model.
+fn for_model(model: &Model, choice: Choice) -> Result<Choice, Stop> {
+    let Dynamics::Continuous(sde) = &model.dynamics else { return Ok(choice) };
+    match choice.check_continuous(sde) {
+        Ok(()) => Ok(choice),
+        Err(fault) => {
+            let stop = Stop::input(format!("{}: {}: {fault}", model.file, choice.name));
+            Err(match fault {
+                Fault::StateDependentDiffusion => stop.help("write --method sr-cd-ckf2, or set time_update"),
+                _ => stop,
+            })
+        }
+    }
 }
 
 fn dropped(location: &Location, key: &str, method: &str) -> String {
@@ -166,19 +186,42 @@ fn refused(error: &SettingError, message: &str, source: &Source) -> Stop {
 
 /// The name of a method, and the parts that were set otherwise.
 pub fn title(choice: &Choice) -> String {
-    let preset = find(choice.name);
-    let rule = preset
-        .is_some_and(|preset| preset.rule != choice.rule)
-        .then(|| format!("rule {}", choice.rule.word()));
-    let form = preset
-        .is_some_and(|preset| preset.form != choice.form)
-        .then(|| format!("form {}", choice.form.word()));
-    let parts = [Some(choice.name.to_owned()), rule, form];
-    parts.into_iter().flatten().collect::<Vec<_>>().join(", ")
+    let Some(preset) = find(choice.name) else { return choice.name.to_owned() };
+    let parts = [
+        ("rule", preset.rule.word(), choice.rule.word()),
+        ("form", preset.form.word(), choice.form.word()),
+        ("time update", preset.time_update.word(), choice.time_update.word()),
+    ];
+    let changed = parts.iter().filter(|(_, own, set)| own != set);
+    let changed = changed.map(|(part, _, set)| format!("{part} {set}"));
+    [choice.name.to_owned()].into_iter().chain(changed).collect::<Vec<_>>().join(", ")
 }
 
-/// The options of a method's rule, with their values for a model of `states` states.
-pub fn options(choice: &Choice, states: usize) -> Vec<(&'static str, f64)> {
+/// The kind of a model.
+fn kind(model: &Model) -> Kind {
+    match model.dynamics {
+        Dynamics::Discrete(_) => Kind::Discrete,
+        Dynamics::Continuous(_) => Kind::Continuous,
+    }
+}
+
+/// The rule of a method, its options with their values for a model of `states` states, the time update with its own,
+/// the form.
+pub fn parts(choice: &Choice, states: usize) -> Vec<String> {
+    let mut parts = vec![format!("rule {}", choice.rule.word())];
+    let rule = options(choice, states);
+    parts.extend(rule.iter().map(|(key, value)| format!("{key} {}", Shown(*value))));
+    parts.push(format!("form {}", form(choice)));
+    if choice.time_update != TimeName::Transition {
+        parts.push(format!("time update {}", choice.time_update.word()));
+        parts.extend(
+            choice.time_options().iter().map(|(key, value)| format!("{} {value}", key.replace('_', " "))),
+        );
+    }
+    parts
+}
+
+fn options(choice: &Choice, states: usize) -> Vec<(&'static str, f64)> {
     match choice.rule {
         RuleName::Unscented => {
             let rule = choice.unscented;
@@ -192,7 +235,7 @@ pub fn options(choice: &Choice, states: usize) -> Vec<(&'static str, f64)> {
 }
 
 /// The form of a method and, in square-root form, its measurement update.
-pub fn form(choice: &Choice) -> String {
+fn form(choice: &Choice) -> String {
     use givens::filter::Block;
     match (choice.form, choice.block) {
         (FormName::Covariance, _) => "covariance".to_owned(),

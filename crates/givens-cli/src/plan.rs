@@ -8,7 +8,7 @@ use core::f64::consts::TAU;
 use givens::Goal;
 use givens::registry::Choice;
 use givens::scalar::Shown;
-use givens_expr::{ModelTransition, suggest};
+use givens_expr::suggest;
 use givens_io::{Beginning, Model, Track, Tracks, read_tracks};
 
 /// Everything that a run over data needs, read and checked.
@@ -30,7 +30,6 @@ impl Plan {
     }
 
     pub fn with(model: Model, choice: Choice, data: &str, truth: Option<&str>) -> Result<Self, Stop> {
-        discrete(&model)?;
         let tracks = read_tracks(data, &model)?;
         ignored(data, &tracks.ignored, &absent(&model, &tracks));
         let data = source_name(data);
@@ -80,17 +79,6 @@ impl Plan {
         }
         Ok(goals)
     }
-}
-
-/// The transition of a discrete model; continuous ones are not run yet.
-pub fn discrete(model: &Model) -> Result<&ModelTransition, Stop> {
-    model.dynamics.discrete().ok_or_else(|| {
-        Stop::input(format!(
-            "{}: the model is continuous in time, which this version does not run yet",
-            model.file
-        ))
-        .help("write `transition` and `noise_cov`, in `dt`, for a discrete model")
-    })
 }
 
 /// A file as messages call it.

@@ -7,7 +7,7 @@ use crate::progress::Progress;
 use givens::metrics::{Accuracy, Truth};
 use givens::registry::Choice;
 use givens::{Estimates, Goal, Row};
-use givens_io::Answer;
+use givens_io::{Answer, Dynamics};
 
 /// What came of a plan.
 pub struct Session {
@@ -33,14 +33,18 @@ impl Session {
                 Row { time: row.time, z, u: &row.u }
             });
             let rows = progress.counting(rows);
-            let Some(model) = plan.model.dynamics.discrete() else { continue };
-            let sensors = &plan.model.observation;
-            let outcome = choice.run(model, sensors, rows, begin.time, &begin.prior, *goal);
+            let (sensors, t0, prior) = (&plan.model.observation, begin.time, &begin.prior);
+            let outcome = match &plan.model.dynamics {
+                Dynamics::Discrete(model) => choice.run(model, sensors, rows, t0, prior, *goal),
+                Dynamics::Continuous(model) => choice.run_continuous(model, sensors, rows, t0, prior, *goal),
+            };
             if let Some((row, error)) = &outcome.failure {
                 let at = &track.rows[begin.row + row];
                 let place = failure::place(&plan.data, track, at, error.time);
                 let what = if *goal == Goal::Filter { "filter" } else { "smoother" };
-                let told = failure::told(&plan.model, &place, what, Some(choice.form), error);
+                let told = failure::told(&plan.model, &place, what, Some(choice), error);
+                let told =
+                    format!("{told}{}", failure::set_out(&plan.model, &outcome.failed_at, &error.fault));
                 let finished = match outcome.estimates.len() {
                     0 => "no row".to_owned(),
                     rows => count(rows, "row"),

@@ -3,6 +3,7 @@
 
 #![allow(clippy::needless_update)] // some methods have no option beside `update`
 
+mod continuous;
 mod distinct;
 mod equivalences;
 mod faults;

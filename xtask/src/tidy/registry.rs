@@ -77,7 +77,8 @@ fn key(source: &str) -> Option<String> {
 mod tests {
     use super::{README, rows};
     use crate::tree::Tree;
-    use givens::registry::{Entry, FormName, RuleName};
+    use givens::filter::predict::Variant;
+    use givens::registry::{Entry, FormName, RuleName, TimeName};
 
     const ENTRY: Entry = Entry {
         name: "ckf",
@@ -85,6 +86,9 @@ mod tests {
         about: "a filter",
         rule: RuleName::Cubature3,
         form: FormName::Covariance,
+        time_update: TimeName::Transition,
+        variant: Variant::Simplified,
+        adaptive: false,
         sources: &["Arasaratnam & Haykin 2009, Cubature Kalman filters"],
     };
     const ROW: &str = "| `ckf` (`cubature`) | `cubature3` | `covariance` | Arasaratnam & Haykin 2009 |\n";

@@ -2,11 +2,10 @@
 
 use crate::args::CheckArgs;
 use crate::message::{Stop, count};
-use crate::method::{chosen, form, options};
+use crate::method::{chosen, parts};
 use crate::plan::model;
 use crate::stdout;
 use givens::model::{Noise, Sde, Transition, Varies};
-use givens::registry::Choice;
 use givens::scalar::Shown;
 use givens_expr::{ModelSde, ModelTransition};
 use givens_io::{Dynamics, Model};
@@ -18,17 +17,9 @@ pub fn check(args: &CheckArgs) -> Result<(), Stop> {
     let choice = chosen(&model, &args.method)?;
     stdout::write(|out| {
         tell(out, &model)?;
-        writeln!(out, "  method      {}", parts(&model, &choice))
+        let parts = parts(&choice, model.states.len()).join(", ");
+        writeln!(out, "  method      {}: {parts}", choice.name)
     })
-}
-
-fn parts(model: &Model, choice: &Choice) -> String {
-    let mut parts = vec![format!("rule {}", choice.rule.word())];
-    parts.extend(
-        options(choice, model.states.len()).iter().map(|(key, value)| format!("{key} {}", Shown(*value))),
-    );
-    parts.push(format!("form {}", form(choice)));
-    format!("{}: {}", choice.name, parts.join(", "))
 }
 
 /// The steps of a discrete model.

@@ -4,13 +4,13 @@ use crate::args::SimulateArgs;
 use crate::failure;
 use crate::files::{self, Sink};
 use crate::message::Stop;
-use crate::plan::{absent, discrete, ignored, model, source_name};
+use crate::paths::paths;
+use crate::plan::{absent, ignored, model, source_name};
 use crate::timetable::{bounded, regular};
 use givens::Row;
 use givens::filter::{Gaussian, StepError};
-use givens::simulate::{Stream, simulate as draw};
-use givens_expr::ModelTransition;
-use givens_io::{Drawn, Model, Track, Tracks, read_times, write_measurements, write_states};
+use givens::simulate::{Paths, Stream, simulate as draw, simulate_continuous};
+use givens_io::{Drawn, Dynamics, Model, Track, Tracks, read_times, write_measurements, write_states};
 
 /// Draws the runs and writes their measurements, and their states if asked for. A run that fails does not stop the
 /// others.
@@ -21,7 +21,7 @@ pub fn simulate(args: &SimulateArgs) -> Result<(), Stop> {
         &[("-o", output), ("--states", states)],
     )?;
     let model = model(&args.model)?;
-    let transition = discrete(&model)?;
+    let paths = paths(&model, args)?;
     let prior = prior(&model)?;
     let tracks = tracks(&model, args)?;
     let output = Sink::open(output)?;
@@ -29,7 +29,7 @@ pub fn simulate(args: &SimulateArgs) -> Result<(), Stop> {
     let (mut runs, mut failures) = (Vec::new(), Vec::new());
     for (at, track) in tracks.tracks.iter().enumerate() {
         for run in 0..args.runs {
-            match one(&model, transition, &prior, track, args, at, run) {
+            match one(&model, &paths, &prior, track, args, at, run) {
                 Ok(drawn) => runs.push(drawn),
                 Err(error) => failures.push(words(&model, args, track, run, &error)),
             }
@@ -70,7 +70,7 @@ fn tracks(model: &Model, args: &SimulateArgs) -> Result<Tracks, Stop> {
 
 fn one(
     model: &Model,
-    transition: &ModelTransition,
+    paths: &Paths,
     prior: &Gaussian,
     track: &Track,
     args: &SimulateArgs,
@@ -79,7 +79,11 @@ fn one(
 ) -> Result<Drawn, StepError> {
     let mut stream = Stream::new(args.seed, u32::try_from(at).unwrap_or(u32::MAX), run);
     let rows = track.rows.iter().map(|row| Row { time: row.time, z: &row.z, u: &row.u });
-    let simulation = draw(transition, &model.observation, rows, track.start, prior, &mut stream)?;
+    let (sensors, t0, stream) = (&model.observation, track.start, &mut stream);
+    let simulation = match &model.dynamics {
+        Dynamics::Discrete(model) => draw(model, sensors, rows, t0, prior, stream)?,
+        Dynamics::Continuous(model) => simulate_continuous(model, sensors, rows, t0, prior, paths, stream)?,
+    };
     Ok(Drawn {
         run,
         track: track.id.clone().or_else(|| (args.runs > 1).then(|| run.to_string())),

@@ -180,6 +180,11 @@ pub enum Fault {
     },
     /// An option out of its range.
     Option(RuleError),
+    /// Parts of a method, or a method and a model, that do not go together.
+    Mismatch {
+        /// Which, and why not.
+        why: &'static str,
+    },
 }
 
 impl fmt::Display for Fault {
@@ -243,6 +248,7 @@ impl fmt::Display for Fault {
                 write!(f, "no step of at least {smallest:e} meets the tolerance; loosen rtol, or set atol")
             }
             Fault::Option(error) => error.fmt(f),
+            Fault::Mismatch { why } => f.write_str(why),
         }
     }
 }

@@ -1,67 +1,13 @@
 //! A method as it was chosen at run time: parts and options.
 
-use super::runtime::{AnyPoints, Parts};
-use crate::Row;
-use crate::filter::predict::OneTransition;
-use crate::filter::{Block, Covariance, Gaussian, SquareRoot};
-use crate::model::{Observation, Transition};
-use crate::rule::{
-    CentralDifference, Cubature3, Cubature5, GaussHermite, Rule, RuleError, Taylor, Unscented,
-};
-use crate::run::{Goal, Outcome, run};
-
-macro_rules! words {
-    ($(#[$doc:meta])* $name:ident { $($(#[$variant_doc:meta])* $variant:ident = $word:literal,)* }) => {
-        $(#[$doc])*
-        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-        pub enum $name {
-            $($(#[$variant_doc])* $variant,)*
-        }
-
-        impl $name {
-            /// All words.
-            pub const WORDS: &[&str] = &[$($word),*];
-
-            /// The word for it.
-            pub const fn word(self) -> &'static str {
-                match self { $(Self::$variant => $word,)* }
-            }
-
-            /// What the word stands for.
-            pub fn parse(word: &str) -> Option<Self> {
-                match word { $($word => Some(Self::$variant),)* _ => None }
-            }
-        }
-    };
-}
-
-words! {
-    /// A rule, by name.
-    RuleName {
-        /// Third-degree spherical-radial cubature.
-        Cubature3 = "cubature3",
-        /// Fifth-degree spherical-radial cubature.
-        Cubature5 = "cubature5",
-        /// The unscented transform.
-        Unscented = "unscented",
-        /// Gauss–Hermite quadrature.
-        GaussHermite = "gauss-hermite",
-        /// Central differences.
-        CentralDifference = "central-difference",
-        /// First-order Taylor expansion.
-        Taylor = "taylor",
-    }
-}
-
-words! {
-    /// A form, by name.
-    FormName {
-        /// The covariance itself.
-        Covariance = "covariance",
-        /// A root of it.
-        SquareRoot = "square-root",
-    }
-}
+use super::entry::{ENTRIES, Entry, find};
+use super::setting::SettingError;
+use super::words::{FormName, GAUGES, Kind, ROOTS, RuleName, TimeName, VARIANTS, VELOCITIES, word_of};
+use crate::filter::Block;
+use crate::filter::predict::{Gauge, Root, Variant, Velocity};
+use crate::ode::{Integrator, Steps};
+use crate::rule::{CentralDifference, GaussHermite, Unscented};
+use crate::scalar::Shown;
 
 /// A method chosen at run time.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -74,6 +20,18 @@ pub struct Choice {
     pub form: FormName,
     /// The block of a square-root measurement update.
     pub block: Block,
+    /// How the belief moves from one time to a later one.
+    pub time_update: TimeName,
+    /// How an Itô–Taylor step takes the derivative of the drift.
+    pub variant: Variant,
+    /// What becomes of the root of a level set between measurements.
+    pub gauge: Gauge,
+    /// The root of a level set that the measurement update draws its points from.
+    pub root: Root,
+    /// What moves a level set.
+    pub velocity: Velocity,
+    /// The solver, its steps and its tolerance; the steps are those of the other time updates too.
+    pub integrator: Integrator,
     /// Options of the unscented rule.
     pub unscented: Unscented,
     /// Options of the Gauss–Hermite rule.
@@ -83,67 +41,70 @@ pub struct Choice {
 }
 
 impl Choice {
-    /// What is wrong with the options for a model of `states` states, if anything.
+    /// Which models it serves.
+    pub const fn kind(&self) -> Kind {
+        self.time_update.kind()
+    }
+
+    /// Whether the method serves models of this kind.
     ///
     /// # Errors
-    /// The option and its range.
-    pub fn check(&self, states: usize) -> Result<(), RuleError> {
-        match self.rule {
-            RuleName::CentralDifference => self.central_difference.check(states),
-            RuleName::Taylor => Taylor.check(states),
-            _ => Rule::check(&self.points(), states),
+    /// The method, and its counterpart for the model.
+    pub fn serves(&self, kind: Kind) -> Result<(), SettingError> {
+        if self.kind() == kind {
+            return Ok(());
         }
+        let (own, other) = (self.kind().word(), kind.word());
+        let as_set = match find(self.name) {
+            Some(entry) if entry.time_update == self.time_update => String::new(),
+            _ => format!(" with time_update = {}", self.time_update.word()),
+        };
+        let message = format!("`{}`{as_set} is a {own}-time method, and the model is {other}", self.name);
+        let times = match kind {
+            Kind::Discrete => "time_update = transition",
+            Kind::Continuous => "time_update = moment-ode or ito-taylor",
+        };
+        let help = match self.counterpart() {
+            Some(name) => format!("its counterpart for {other} models is `{name}`"),
+            None => format!("set {times}, which goes with the {} rule", self.rule.word()),
+        };
+        Err(SettingError::method(message, Some(help)))
     }
 
-    fn points(&self) -> AnyPoints {
-        match self.rule {
-            RuleName::Cubature5 => AnyPoints::Cubature5(Cubature5),
-            RuleName::Unscented => AnyPoints::Unscented(self.unscented),
-            RuleName::GaussHermite => AnyPoints::GaussHermite(self.gauss_hermite),
-            _ => AnyPoints::Cubature3(Cubature3),
-        }
+    /// The method of the other kind with the same rule and form.
+    pub fn counterpart(&self) -> Option<&'static str> {
+        let same = |entry: &&Entry| {
+            entry.kind() != self.kind() && entry.rule == self.rule && entry.form == self.form
+        };
+        ENTRIES.iter().find(same).map(|entry| entry.name)
     }
 
-    /// Runs the method over a trajectory; see [`run()`].
-    pub fn run<'a, M: Transition, H: Observation>(
-        &self,
-        model: &M,
-        sensors: &H,
-        rows: impl Iterator<Item = Row<'a>> + Clone,
-        t0: f64,
-        prior: &Gaussian,
-        goal: Goal,
-    ) -> Outcome {
-        let covariance = self.form == FormName::Covariance;
-        macro_rules! with {
-            ($rule:expr) => {
-                if covariance {
-                    run(
-                        Parts::<_, Covariance, _>::new($rule, self.block, OneTransition),
-                        model,
-                        sensors,
-                        rows,
-                        t0,
-                        prior,
-                        goal,
-                    )
-                } else {
-                    run(
-                        Parts::<_, SquareRoot, _>::new($rule, self.block, OneTransition),
-                        model,
-                        sensors,
-                        rows,
-                        t0,
-                        prior,
-                        goal,
-                    )
-                }
-            };
+    /// The parts and options of the time update beside its name, with their values.
+    pub fn time_options(&self) -> Vec<(&'static str, String)> {
+        let mut all = Vec::new();
+        match self.time_update {
+            TimeName::Transition => return all,
+            TimeName::ItoTaylor => all.push(("variant", word_of(VARIANTS, self.variant).to_owned())),
+            TimeName::LevelSet => {
+                all.push(("velocity", word_of(VELOCITIES, self.velocity).to_owned()));
+                all.push(("gauge", word_of(GAUGES, self.gauge).to_owned()));
+                all.push(("root", word_of(ROOTS, self.root).to_owned()));
+            }
+            TimeName::EulerMaruyama | TimeName::MomentOde => {}
         }
-        match self.rule {
-            RuleName::CentralDifference => with!(self.central_difference),
-            RuleName::Taylor => with!(Taylor),
-            _ => with!(self.points()),
+        let adaptive = self.time_update.solves() && self.integrator.solver.adaptive();
+        if self.time_update.solves() {
+            all.push(("solver", self.integrator.solver.name().to_owned()));
         }
+        if adaptive {
+            all.push(("rtol", Shown(self.integrator.tolerance.rtol).to_string()));
+            all.push(("atol", Shown(self.integrator.tolerance.atol).to_string()));
+        }
+        match self.integrator.steps {
+            Steps::Count(count) if !adaptive => all.push(("substeps", count.to_string())),
+            Steps::Count(_) => {}
+            Steps::Longest(longest) => all.push(("max_step", Shown(longest).to_string())),
+        }
+        all
     }
 }

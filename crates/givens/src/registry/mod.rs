@@ -2,9 +2,17 @@
 
 mod choice;
 mod entry;
+mod option;
+mod resolve;
+mod running;
 mod runtime;
 mod setting;
+mod time;
+mod words;
 
-pub use choice::{Choice, FormName, RuleName};
-pub use entry::{ENTRIES, Entry, find, names};
-pub use setting::{OPTIONS, OptionInfo, Setting, SettingError, Value, resolve};
+pub use choice::Choice;
+pub use entry::{ENTRIES, Entry, default_method, find, names};
+pub use option::{OPTIONS, OptionInfo, Reader};
+pub use resolve::resolve;
+pub use setting::{Setting, SettingError, Value};
+pub use words::{FormName, Kind, RuleName, TimeName};

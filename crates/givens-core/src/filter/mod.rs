@@ -27,4 +27,4 @@ pub use predict::Backward;
 pub use start::Sizes;
 pub use stepper::{Filter, Prior};
 pub use steps::Grow;
-pub use update::{Block, Innovation};
+pub use update::{Block, Innovation, Learnt};

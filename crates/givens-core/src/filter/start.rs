@@ -117,10 +117,10 @@ impl Layout {
         // conditional root, twice where a gap of several steps is chained
         let belief = 2 * n + 2 * n * n;
         let innovation = 4 * d + d * d + 2;
-        let back = if smoothing { 4 * n * n } else { 0 };
+        let back = if smoothing { 5 * n * n + n } else { 0 };
         let kept = shape.table + sizes.controls + sizes.parameters + belief + innovation + back;
         let predict = predict + if smoothing { accumulate_scratch(n) } else { 0 };
-        let update = update_scratch(n, d, r, shape, sizes.model);
+        let update = update_scratch(n, d, r, shape, sizes.model, smoothing);
         let work = if predict > update { predict } else { update };
         Self { sizes, shape, smoothing, moved: false, len: kept + work }
     }

@@ -6,7 +6,7 @@ use super::memory::take;
 use super::methods::{Method, Over};
 use super::predict::{Backward, TimeUpdate};
 use super::start::{Layout, Sizes, countable};
-use super::update::Innovation;
+use super::update::{Innovation, Learnt};
 use crate::ode::Work;
 use crate::rule::{Rule, Shape};
 use crate::scalar::Real;
@@ -54,6 +54,7 @@ pub(super) struct Parts<'a, T> {
     pub belief: Belief<'a, T>,
     pub total: Backward<'a, T>,
     pub later: Backward<'a, T>,
+    pub learnt: Learnt<'a, T>,
     pub measured: &'a mut [T],
     pub predicted: &'a mut [T],
     pub nu: &'a mut [T],
@@ -84,6 +85,7 @@ pub(super) fn parts<'a, T, F: Form>(layout: &Layout, mut memory: &'a mut [T]) ->
         },
         total: Backward { gain: take(m, square), conditional: take(m, root) },
         later: Backward { gain: take(m, square), conditional: take(m, root) },
+        learnt: Learnt { shift: take(m, if root > 0 { n } else { 0 }), turn: take(m, root) },
         measured: take(m, d),
         predicted: take(m, d),
         nu: take(m, d),
@@ -173,6 +175,7 @@ impl<'m, X: Over<M>, M, T: Real, B: AsMut<[T]>> Filter<'m, X, M, T, B> {
         ] {
             to.iter_mut().zip(from).for_each(|(to, &x)| *to = T::of(x));
         }
+        parts::<T, X::Form>(&layout, memory.as_mut()).learnt.reset(n);
         let (time, scalar, controlled) = (prior.time, PhantomData, sizes.controls == 0);
         let work = Work::default();
         Ok(Self {
@@ -295,20 +298,38 @@ impl<X: Method, M, T: Real, B: AsRef<[T]>> Filter<'_, X, M, T, B> {
         cov
     }
 
-    /// Of the last prediction, what a smoother needs: the gain, and in square-root form the conditional root, both
-    /// n × n (chained over all steps of a gap). Empty unless the filter was started for smoothing.
-    pub fn backward(&self) -> (&[T], &[T]) {
+    /// Scalars of Ω or G, and of Γ.
+    fn back_len(&self) -> (usize, usize) {
         let n = self.layout.sizes.states;
         let square = if self.layout.smoothing { n * n } else { 0 };
-        let (belief, root) = if X::Form::SQUARE_ROOT { (n + n * n, square) } else { (n + 2 * n * n, 0) };
+        (square, if X::Form::SQUARE_ROOT { square } else { 0 })
+    }
+
+    /// Of the last prediction, what a smoother needs, over all steps of its gap, both n × n: Ω and Γ in square-root form,
+    /// the gain G alone in covariance form (see [`Backward`](super::Backward)). Empty unless the filter was started for
+    /// smoothing.
+    pub fn backward(&self) -> (&[T], &[T]) {
+        let (n, (square, root)) = (self.layout.sizes.states, self.back_len());
+        let belief = if X::Form::SQUARE_ROOT { n + n * n } else { n + 2 * n * n };
         (self.array(belief, square), self.array(belief + square, root))
+    }
+
+    /// Of the updates since the last prediction, what a smoother needs: shift, of length n, and turn, n × n (see
+    /// [`Learnt`]). Empty in covariance form, and unless the filter was started for smoothing.
+    pub fn learnt(&self) -> (&[T], &[T]) {
+        let (n, (square, root)) = (self.layout.sizes.states, self.back_len());
+        let at = if X::Form::SQUARE_ROOT { n + n * n } else { n + 2 * n * n } + 2 * (square + root);
+        let shift = if root > 0 { n } else { 0 };
+        (self.array(at, shift), self.array(at + shift, root))
     }
 
     /// What the last measurement said; empty before the first.
     pub fn innovation(&self) -> Innovation<'_, T> {
         let Sizes { states: n, measures: d, .. } = self.layout.sizes;
-        let square = if self.layout.smoothing { n * n } else { 0 };
-        let at = if X::Form::SQUARE_ROOT { n + n * n + 4 * square } else { n + 2 * n * n + 2 * square } + d;
+        let (square, root) = self.back_len();
+        let belief = if X::Form::SQUARE_ROOT { n + n * n } else { n + 2 * n * n };
+        let learnt = if root > 0 { n + root } else { 0 };
+        let at = belief + 2 * (square + root) + learnt + d;
         let of = |skip: usize, len: usize| self.array(at + skip, len);
         let k = self.present;
         let scores = of(3 * d + d * d, 2);

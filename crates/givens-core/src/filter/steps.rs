@@ -67,11 +67,18 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
     /// Before the first step of a gap: G = I, and nothing unknown about the state given itself.
     fn stand_still(&mut self) {
         let n = self.layout.sizes.states;
+        self.forget_learnt();
         let total = self.parts().total;
         total.conditional.fill(T::zero());
         for (i, g) in total.gain.iter_mut().enumerate() {
             *g = if i % (n + 1) == 0 { T::one() } else { T::zero() };
         }
+    }
+
+    /// Forgets what the updates since the last prediction have learnt, once it is written down.
+    pub(crate) fn forget_learnt(&mut self) {
+        let n = self.layout.sizes.states;
+        self.parts().learnt.reset(n);
     }
 
     fn one_step(&mut self, t: f64, dt: f64, chained: bool) -> Result<(), StepError> {
@@ -168,6 +175,7 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
             p,
             floor,
             mut belief,
+            mut learnt,
             measured,
             predicted,
             nu,
@@ -199,6 +207,7 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
             measurement,
             &mut belief,
             &mut innovation,
+            (!learnt.turn.is_empty()).then_some(&mut learnt),
             scratch,
         );
         let updated = done.map_err(fail)?;

@@ -1,20 +1,17 @@
 //! A sweep of Givens rotations: absorbs a linear map of a triangular factor into that factor.
 
 use super::Health;
-use super::rest::errors_above;
 use crate::scalar::{Mask, Real};
 
 /// Triangularises [L D; 0 S] in place, L d × d and S n × n lower triangular, D d × n.
 ///
 /// The square matrix `a` of d + n rows of that length becomes [T11 0; T21 T22], lower triangular, with diagonal
-/// ≥ 0 if those of L and S are. Every row of D is rotated into its pivot from the last column to the first, which
+/// ≥ 0 if those of L and S are. The rotations do not depend on S; with S = I, what stands below is the rotation itself. Every row of D is rotated into its pivot from the last column to the first, which
 /// leaves S triangular throughout; all cosines of a row come from one running sum of squares. It is the
 /// measurement update (2010 eq 36) and the smoothing step (2011 Table 3). A row that the earlier ones leave
-/// at most (d + n) ε of is zero; its pivot and column are then zero, as in [`tria`](super::tria()). So is one that
-/// they leave no more of than the errors of the rows so far add up to, if `rounding` tells these (length d, or empty):
-/// a pivot of mere rounding must not be divided by. `scratch` has length n.
+/// at most (d + n) ε of is zero; its pivot and column are then zero, as in [`tria`](super::tria()). `scratch` has length n.
 #[inline(always)]
-pub fn sweep<T: Real>(a: &mut [T], d: usize, n: usize, rounding: &[T], scratch: &mut [T]) -> Health<T> {
+pub fn sweep<T: Real>(a: &mut [T], d: usize, n: usize, scratch: &mut [T]) -> Health<T> {
     let size = d + n;
     debug_assert!(a.len() >= size * size && scratch.len() >= n);
     let norms = &mut scratch[..n];
@@ -29,11 +26,7 @@ pub fn sweep<T: Real>(a: &mut [T], d: usize, n: usize, rounding: &[T], scratch: 
             sum = z.mul_add(z, sum);
             *norm = sum;
         }
-        let error = match rounding.get(q) {
-            Some(&own) => own + errors_above(a, size, q, |above, _| rounding[above]),
-            None => T::zero(),
-        };
-        let nothing = sum.le((bound * bound * (settled + sum)).max(error * error));
+        let nothing = sum.le(bound * bound * (settled + sum));
         if nothing.all() {
             drop_row(a, d, n, q);
             continue;

@@ -40,10 +40,6 @@ impl Rule for CentralDifference {
         self.shape_for(n)
     }
 
-    fn rounding(&self, n: usize) -> f64 {
-        Real::sqrt(n as f64) / self.eta
-    }
-
     fn reach(&self, _: usize) -> Option<f64> {
         Some(self.eta)
     }

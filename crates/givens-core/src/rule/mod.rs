@@ -76,12 +76,6 @@ pub trait Rule: Copy {
     /// D is J S with J = ∂g/∂x at the mean, whatever the root.
     const FIRST_ORDER: bool = false;
 
-    /// The error of a row of [D E], in Euclidean norm, that a unit error in every value of g makes.
-    fn rounding(&self, n: usize) -> f64 {
-        let _ = n;
-        1.0
-    }
-
     /// How far along an axis the points stand from the mean, in standard deviations; none if the rule has no points.
     fn reach(&self, n: usize) -> Option<f64>;
 

@@ -89,16 +89,6 @@ impl<R: PointRule> Rule for R {
         self.pairs(n).shape(n, self.centre(n))
     }
 
-    fn rounding(&self, n: usize) -> f64 {
-        match self.pairs(n) {
-            Pairs::Axes { radius2, bend } => {
-                let radius = Real::sqrt(radius2);
-                Real::sqrt(n as f64) / radius * (1.0 + Real::sqrt(Real::abs(bend)) / radius)
-            }
-            Pairs::Table { .. } => 1.0,
-        }
-    }
-
     /// One standard deviation for a table: its points are near and far.
     fn reach(&self, n: usize) -> Option<f64> {
         match self.pairs(n) {

@@ -27,10 +27,6 @@ impl Rule for Taylor {
         self.shape_for(n)
     }
 
-    fn rounding(&self, _: usize) -> f64 {
-        0.0
-    }
-
     fn reach(&self, _: usize) -> Option<f64> {
         None
     }

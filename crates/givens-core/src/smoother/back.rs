@@ -1,30 +1,39 @@
-//! One step back: from the smoothed belief at k + 1 to that at k.
+//! One step back in covariance form: from the smoothed belief at k + 1 to that at k (2011 Table 2).
 
 use crate::filter::predict::multiply;
-use crate::filter::{Belief, Fault, Form, Matrix};
-use crate::kernels::{add_outer, cholesky_scaled, copy_lower, tria};
+use crate::filter::{Belief, Fault, Matrix};
+use crate::kernels::{add_outer, cholesky_scaled};
 use crate::scalar::Real;
 
-use crate::filter::memory::{put_columns, take};
+use crate::filter::memory::take;
 use crate::filter::predict::lanes;
 
 /// What was recorded of the time update from k to k + 1.
 #[derive(Clone, Copy, Debug)]
-pub struct Passage<'a, T> {
+pub(super) struct Passage<'a, T> {
     /// m_k, filtered.
     pub mean: &'a [T],
-    /// P_k, filtered; empty in square-root form.
+    /// P_k, filtered.
     pub cov: &'a [T],
-    /// P⁻_k, from which measurements made P_k and whose rounding P_k has; empty if unknown or in square-root form.
+    /// P⁻_k, from which measurements made P_k and whose rounding P_k has; empty if unknown.
     pub before: &'a [T],
     /// m⁻_{k+1}.
     pub predicted_mean: &'a [T],
-    /// P⁻_{k+1}; empty in square-root form.
+    /// P⁻_{k+1}.
     pub predicted_cov: &'a [T],
     /// G_k, n × n.
     pub gain: &'a [T],
-    /// A root of the covariance of x_k given x_{k+1}; empty in covariance form.
-    pub conditional: &'a [T],
+}
+
+impl<'a, T> Passage<'a, T> {
+    /// The arrays of one record; `before` is the predicted covariance of the one before it.
+    pub fn of(record: &'a [T], before: &'a [T], n: usize) -> Self {
+        let (mean, rest) = record.split_at(n);
+        let (cov, rest) = rest.split_at(n * n);
+        let (predicted_mean, rest) = rest.split_at(n);
+        let (predicted_cov, gain) = rest.split_at(n * n);
+        Passage { mean, cov, before, predicted_mean, predicted_cov, gain }
+    }
 }
 
 /// Scalars of scratch of [`step_back`].
@@ -34,7 +43,7 @@ pub(super) const fn back_scratch(n: usize) -> usize {
 
 /// mˢ_k = m_k + G_k (mˢ_{k+1} − m⁻_{k+1}): the mean-only backward pass (2011 §7, remark ii).
 #[inline(always)]
-pub fn mean_back<T: Real>(passage: &Passage<T>, smoothed: &mut [T], scratch: &mut [T]) {
+pub(super) fn mean_back<T: Real>(passage: &Passage<T>, smoothed: &mut [T], scratch: &mut [T]) {
     let n = smoothed.len();
     let change = &mut scratch[..n];
     for (c, (&s, &m)) in change.iter_mut().zip(smoothed.iter().zip(passage.predicted_mean)) {
@@ -46,30 +55,18 @@ pub fn mean_back<T: Real>(passage: &Passage<T>, smoothed: &mut [T], scratch: &mu
     }
 }
 
-/// Takes `smoothed` from k + 1 to k: with the mean, Sˢ_k = Tria([D_k  G_k Sˢ_{k+1}]) in square-root form (2011 Table 3),
-/// Pˢ_k = P_k + G_k (Pˢ_{k+1} − P⁻_{k+1}) G_kᵀ and its root in covariance form (2011 Table 2).
-/// `scratch` holds 4 n² + 2 n scalars.
+/// Takes `smoothed` from k + 1 to k: Pˢ_k = P_k + G_k (Pˢ_{k+1} − P⁻_{k+1}) G_kᵀ, its root, and the mean.
 ///
 /// # Errors
-/// A smoothed covariance that is not positive semidefinite, in covariance form.
+/// A smoothed covariance that is not positive semidefinite.
 #[inline(always)]
-pub fn step_back<T: Real, F: Form>(
+pub(super) fn step_back<T: Real>(
     passage: &Passage<T>,
     smoothed: &mut Belief<T>,
     mut scratch: &mut [T],
 ) -> Result<T::Mask, Fault> {
     let n = smoothed.mean.len();
     mean_back(passage, smoothed.mean, scratch);
-    if F::SQUARE_ROOT {
-        let wide = take(&mut scratch, 2 * n * n);
-        let product = take(&mut scratch, n * n);
-        multiply(product, n, passage.gain, smoothed.factor);
-        put_columns(wide, 2 * n, 0, passage.conditional, n);
-        put_columns(wide, 2 * n, n, product, n);
-        let health = tria(wide, n, 2 * n, 2 * n);
-        copy_lower(smoothed.factor, n, wide, 2 * n);
-        return lanes(health, Matrix::Smoothed);
-    }
     let product = take(&mut scratch, n * n);
     let scale = take(&mut scratch, n);
     // the rounding of P_k is that of P⁻_k, and that of G (Pˢ − P⁻) Gᵀ is its terms'; both may be far above P_k

@@ -4,15 +4,15 @@ use super::back::symmetrise;
 use super::history::for_smoothing;
 use crate::filter::memory::{put_columns, take};
 use crate::filter::predict::multiply;
-use crate::filter::{Fault, Filter, Form, Grow, Over, StepError};
+use crate::filter::{Fault, Filter, Form, Grow, Learnt, Over, StepError};
 use crate::kernels::{add_outer, copy_lower, square, tria};
 use crate::scalar::Real;
 use core::marker::PhantomData;
 
-/// The state at the time when this was begun, given all measurements since.
+/// The state at the time when this was begun, given all measurements since (docs/algorithms.md S6).
 ///
-/// With B_k = B_{k−1} G_{k−1}: m_{j|k} = m_{j|k−1} + B_k (m_k − m⁻_k), and in square-root form, with no subtraction,
-/// D_k = Tria([D_{k−1}  B_{k−1} D'_{k−1}]), S_{j|k} = Tria([D_k  B_k S_k]), D' the conditional root of a step.
+/// Square-root form: x_j = m_j + S_j u, and u is N(shift + chain u', Γ Γᵀ) given the coordinates u' of the filter's present
+/// belief. Covariance form: m_{j|k} = m_{j|k−1} + B_k (m_k − m⁻_k) with B_k = B_{k−1} G_{k−1}.
 #[derive(Clone, Debug)]
 pub struct FixedPoint<T, B> {
     states: usize,
@@ -24,11 +24,13 @@ pub struct FixedPoint<T, B> {
 struct Parts<'a, T> {
     mean: &'a mut [T],
     cov: &'a mut [T],
+    /// m_j and S_j in square-root form, m⁻_k and P⁻_k in covariance form.
+    anchor_mean: &'a mut [T],
+    anchor: &'a mut [T],
+    shift: &'a mut [T],
     chain: &'a mut [T],
+    /// Γ in square-root form; P_k − P⁻_k in covariance form.
     conditional: &'a mut [T],
-    predicted_mean: &'a mut [T],
-    predicted_cov: &'a mut [T],
-    now: &'a mut [T],
     product: &'a mut [T],
     wide: &'a mut [T],
 }
@@ -38,11 +40,11 @@ fn parts<T>(n: usize, mut memory: &mut [T]) -> Parts<'_, T> {
     Parts {
         mean: take(m, n),
         cov: take(m, n * n),
+        anchor_mean: take(m, n),
+        anchor: take(m, n * n),
+        shift: take(m, n),
         chain: take(m, n * n),
         conditional: take(m, n * n),
-        predicted_mean: take(m, n),
-        predicted_cov: take(m, n * n),
-        now: take(m, n * n),
         product: take(m, n * n),
         wide: take(m, 2 * n * n),
     }
@@ -52,7 +54,7 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> FixedPoint<T, B> {
     /// Scalars of memory for n `states`.
     #[must_use]
     pub const fn memory_len(states: usize) -> usize {
-        2 * states + 8 * states * states
+        3 * states + 7 * states * states
     }
 
     /// Begins at the filter's present time, with its belief, in at least [`memory_len`](Self::memory_len) scalars. The
@@ -61,7 +63,7 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> FixedPoint<T, B> {
     /// # Errors
     /// It was not, or too little memory.
     pub fn begin<X: Over<M>, M, C: Grow<T>>(
-        filter: &Filter<'_, X, M, T, C>,
+        filter: &mut Filter<'_, X, M, T, C>,
         mut memory: B,
     ) -> Result<Self, StepError> {
         let n = filter.mean().len();
@@ -73,10 +75,11 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> FixedPoint<T, B> {
         let parts = parts(n, memory.as_mut());
         parts.mean.copy_from_slice(filter.mean());
         filter.write_cov(parts.cov);
+        parts.anchor_mean.copy_from_slice(filter.mean());
+        parts.anchor.copy_from_slice(if X::Form::SQUARE_ROOT { filter.factor() } else { parts.cov });
         parts.conditional.fill(T::zero());
-        for (i, b) in parts.chain.iter_mut().enumerate() {
-            *b = if i % (n + 1) == 0 { T::one() } else { T::zero() };
-        }
+        Learnt { shift: parts.shift, turn: parts.chain }.reset(n);
+        filter.forget_learnt();
         Ok(Self { states: n, square_root: X::Form::SQUARE_ROOT, memory, scalar: PhantomData })
     }
 
@@ -104,8 +107,16 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> FixedPoint<T, B> {
         t: f64,
     ) -> Result<(), StepError> {
         self.fits(filter)?;
-        filter.predict(t)?;
         let n = self.states;
+        if X::Form::SQUARE_ROOT {
+            let parts = parts(n, self.memory.as_mut());
+            let (learnt, turn) = filter.learnt();
+            follow(parts.shift, parts.chain, learnt);
+            multiply(parts.product, n, parts.chain, turn);
+            parts.chain.copy_from_slice(parts.product);
+            filter.forget_learnt();
+        }
+        filter.predict(t)?;
         let parts = parts(n, self.memory.as_mut());
         let (gain, conditional) = filter.backward();
         if X::Form::SQUARE_ROOT {
@@ -115,11 +126,11 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> FixedPoint<T, B> {
             let _ = tria(parts.wide, n, 2 * n, 2 * n);
             copy_lower(parts.conditional, n, parts.wide, 2 * n);
         } else {
-            filter.write_cov(parts.predicted_cov);
+            parts.anchor_mean.copy_from_slice(filter.mean());
+            filter.write_cov(parts.anchor);
         }
         multiply(parts.product, n, parts.chain, gain);
         parts.chain.copy_from_slice(parts.product);
-        parts.predicted_mean.copy_from_slice(filter.mean());
         Ok(())
     }
 
@@ -134,30 +145,37 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> FixedPoint<T, B> {
         self.fits(filter)?;
         let n = self.states;
         let parts = parts(n, self.memory.as_mut());
-        for (i, m) in parts.mean.iter_mut().enumerate() {
-            let change = filter.mean().iter().zip(&*parts.predicted_mean);
-            let row = &parts.chain[i * n..(i + 1) * n];
-            *m = row.iter().zip(change).fold(*m, |sum, (&b, (&x, &y))| b.mul_add(x - y, sum));
-        }
         if X::Form::SQUARE_ROOT {
-            multiply(parts.product, n, parts.chain, filter.factor());
-            put_columns(parts.wide, 2 * n, 0, parts.conditional, n);
-            put_columns(parts.wide, 2 * n, n, parts.product, n);
+            let (learnt, turn) = filter.learnt();
+            let shift = &mut parts.product[..n];
+            shift.copy_from_slice(parts.shift);
+            follow(shift, parts.chain, learnt);
+            parts.mean.copy_from_slice(parts.anchor_mean);
+            follow(parts.mean, parts.anchor, shift);
+            // the root of the state: S_j [Γ  chain turn]
+            multiply(parts.product, n, parts.chain, turn);
+            multiply(parts.cov, n, parts.anchor, parts.product);
+            multiply(parts.product, n, parts.anchor, parts.conditional);
+            put_columns(parts.wide, 2 * n, 0, parts.product, n);
+            put_columns(parts.wide, 2 * n, n, parts.cov, n);
             square(parts.cov, n, parts.wide, 2 * n, 2 * n);
-        } else {
-            filter.write_cov(parts.now);
-            for (x, &p) in parts.now.iter_mut().zip(&*parts.predicted_cov) {
-                *x -= p;
-            }
-            multiply(parts.product, n, parts.chain, parts.now);
-            add_outer(parts.cov, n, n, parts.product, n, parts.chain, n, n, 1.0);
-            symmetrise(parts.cov, n);
+            return Ok(());
         }
+        let change = &mut parts.product[..n];
+        for (to, (&x, &y)) in change.iter_mut().zip(filter.mean().iter().zip(&*parts.anchor_mean)) {
+            *to = x - y;
+        }
+        follow(parts.mean, parts.chain, change);
+        filter.write_cov(parts.conditional);
+        for (x, &p) in parts.conditional.iter_mut().zip(&*parts.anchor) {
+            *x -= p;
+        }
+        multiply(parts.product, n, parts.chain, parts.conditional);
+        add_outer(parts.cov, n, n, parts.product, n, parts.chain, n, n, 1.0);
+        symmetrise(parts.cov, n);
         // a second update at this time starts from here
-        parts.predicted_mean.copy_from_slice(filter.mean());
-        if !X::Form::SQUARE_ROOT {
-            filter.write_cov(parts.predicted_cov);
-        }
+        parts.anchor_mean.copy_from_slice(filter.mean());
+        filter.write_cov(parts.anchor);
         Ok(())
     }
 
@@ -169,5 +187,12 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> FixedPoint<T, B> {
     /// Its covariance, n × n.
     pub fn cov(&self) -> &[T] {
         &self.memory.as_ref()[self.states..self.states + self.states * self.states]
+    }
+}
+
+/// x + A v.
+fn follow<T: Real>(x: &mut [T], a: &[T], v: &[T]) {
+    for (x, row) in x.iter_mut().zip(a.chunks_exact(v.len().max(1))) {
+        *x = row.iter().zip(v).fold(*x, |sum, (&a, &v)| a.mul_add(v, sum));
     }
 }

@@ -1,8 +1,10 @@
 //! The record of a filter's time updates, in memory that the caller lends: all of them, or a ring of the last ones.
 
 use super::back::{Passage, back_scratch, mean_back, step_back};
+use super::rotated::{Coordinates, Rotated, rotated_len};
 use crate::filter::memory::take;
-use crate::filter::{Belief, Covariance, Fault, Filter, Form, Grow, Over, Prior, SquareRoot, StepError};
+use crate::filter::predict::multiply;
+use crate::filter::{Belief, Fault, Filter, Form, Grow, Over, Prior, StepError};
 use crate::scalar::Real;
 use core::marker::PhantomData;
 
@@ -23,22 +25,22 @@ pub struct History<T, B> {
 impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
     /// Scalars of one record of a filter of n states.
     #[must_use]
-    pub const fn record_len(states: usize, square_root: bool) -> usize {
-        2 * states + states * states * if square_root { 2 } else { 3 }
+    pub const fn record_len(states: usize) -> usize {
+        2 * states + 3 * states * states
     }
 
     /// Scalars of memory for `capacity` records and the backward pass.
     #[must_use]
-    pub const fn memory_len(states: usize, square_root: bool, capacity: usize) -> usize {
+    pub const fn memory_len(states: usize, capacity: usize) -> usize {
         let belief = states + 2 * states * states;
-        capacity * Self::record_len(states, square_root) + belief + back_scratch(states)
+        let (back, rotated) = (back_scratch(states), rotated_len(states));
+        capacity * Self::record_len(states) + belief + if back > rotated { back } else { rotated }
     }
 
     /// A history for filters of n `states`; it holds as many records as `memory` has room for.
     pub fn new(states: usize, square_root: bool, mut memory: B) -> Self {
-        let fixed = Self::memory_len(states, square_root, 0);
-        let room = memory.as_mut().len().saturating_sub(fixed);
-        let capacity = room / Self::record_len(states, square_root).max(1);
+        let room = memory.as_mut().len().saturating_sub(Self::memory_len(states, 0));
+        let capacity = room / Self::record_len(states).max(1);
         Self { states, square_root, capacity, oldest: 0, count: 0, memory, scalar: PhantomData }
     }
 
@@ -53,15 +55,11 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
     }
 
     /// Whether a belief of n `states` in this form goes with these records, and these into the memory.
-    fn room<F: Form>(&mut self, states: usize) -> Result<(), Fault> {
-        let record = |n, square_root| Self::record_len(n, square_root);
-        let fixed = Self::memory_len(self.states, self.square_root, 0);
+    fn room(&mut self, states: usize, square_root: bool) -> Result<(), Fault> {
+        let fixed = Self::memory_len(self.states, 0);
         for (of, expected, found) in [
-            (
-                "a record of the history",
-                record(states, F::SQUARE_ROOT),
-                record(self.states, self.square_root),
-            ),
+            ("the history's states", self.states, states),
+            ("the roots of the history's records", usize::from(self.square_root), usize::from(square_root)),
             ("the history's memory", fixed, fixed.min(self.memory.as_mut().len())),
         ] {
             if expected != found {
@@ -73,7 +71,7 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
 
     /// Whether the filter goes with this history.
     fn fits<X: Over<M>, M, C: Grow<T>>(&mut self, filter: &Filter<'_, X, M, T, C>) -> Result<(), StepError> {
-        let room = self.room::<X::Form>(filter.mean().len());
+        let room = self.room(filter.mean().len(), X::Form::SQUARE_ROOT);
         room.and_then(|()| for_smoothing(filter)).map_err(|fault| filter.fail(fault))
     }
 
@@ -86,38 +84,60 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
         filter: &mut Filter<'_, X, M, T, C>,
         t: f64,
     ) -> Result<(), StepError> {
-        let (n, square) = (self.states, if self.square_root { 0 } else { self.states * self.states });
         if self.capacity == 0 {
             return filter.predict(t);
         }
         self.fits(filter)?;
+        self.close(filter);
         // the belief before waits in memory of the way back: in a full ring, its record is still the oldest one's
-        let (before, ..) = self.carve(square);
-        before.mean.copy_from_slice(filter.mean());
-        if square > 0 {
-            filter.write_cov(before.cov);
+        let n = self.states;
+        let (mean, rest) = self.carve().1.split_at_mut(n);
+        mean.copy_from_slice(filter.mean());
+        if X::Form::SQUARE_ROOT {
+            rest[..n * n].copy_from_slice(filter.factor());
+        } else {
+            filter.write_cov(&mut rest[..n * n]);
         }
         filter.predict(t)?;
         let slot = (self.oldest + self.count) % self.capacity;
-        let len = Self::record_len(n, self.square_root);
-        let (records, mut belief) = self.memory.as_mut().split_at_mut(self.capacity * len);
-        let mut after = &mut records[slot * len..(slot + 1) * len];
-        take(&mut after, n).copy_from_slice(take(&mut belief, n));
-        take(&mut belief, n * n);
-        take(&mut after, square).copy_from_slice(take(&mut belief, square));
-        take(&mut after, n).copy_from_slice(filter.mean());
-        if square > 0 {
-            filter.write_cov(take(&mut after, square));
-        }
+        let (records, belief) = self.memory.as_mut().split_at_mut(self.capacity * Self::record_len(n));
+        let mut record = &mut records[slot * Self::record_len(n)..][..Self::record_len(n)];
+        take(&mut record, n + n * n).copy_from_slice(&belief[..n + n * n]);
         let (gain, conditional) = filter.backward();
-        take(&mut after, gain.len()).copy_from_slice(gain);
-        take(&mut after, conditional.len()).copy_from_slice(conditional);
+        if X::Form::SQUARE_ROOT {
+            take(&mut record, n).fill(T::zero());
+        } else {
+            take(&mut record, n).copy_from_slice(filter.mean());
+            filter.write_cov(take(&mut record, n * n));
+        }
+        take(&mut record, n * n).copy_from_slice(gain);
+        record.copy_from_slice(conditional);
         if self.count == self.capacity {
             self.oldest = (self.oldest + 1) % self.capacity;
         } else {
             self.count += 1;
         }
         Ok(())
+    }
+
+    /// Completes the newest record, in square-root form, by what the updates at its end have learnt.
+    fn close<X: Over<M>, M, C: Grow<T>>(&mut self, filter: &mut Filter<'_, X, M, T, C>) {
+        let (n, len) = (self.states, Self::record_len(self.states));
+        if self.count == 0 || !self.square_root {
+            return;
+        }
+        let slot = (self.oldest + self.count - 1) % self.capacity;
+        let (records, belief) = self.memory.as_mut().split_at_mut(self.capacity * len);
+        let record = &mut records[slot * len..(slot + 1) * len];
+        let (shift, rest) = record[n + n * n..].split_at_mut(n);
+        let (gain, product) = (&mut rest[..n * n], &mut belief[..n * n]);
+        let (learnt, turn) = filter.learnt();
+        for (shift, row) in shift.iter_mut().zip(gain.chunks_exact(n)) {
+            *shift = row.iter().zip(learnt).fold(*shift, |sum, (&g, &x)| g.mul_add(x, sum));
+        }
+        multiply(product, n, gain, turn);
+        gain.copy_from_slice(product);
+        filter.forget_learnt();
     }
 
     /// Goes back from the filter's present belief over at most `steps` records, the latest first. `visit` is called
@@ -133,17 +153,16 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
         visit: impl FnMut(usize, &Belief<T>),
     ) -> Result<(), StepError> {
         self.fits(filter)?;
-        let square = if self.square_root { 0 } else { self.states * self.states };
-        let (belief, ..) = self.carve(square);
+        let (n, (_, mut rest)) = (self.states, self.carve());
+        let belief = present(n, &mut rest);
         belief.mean.copy_from_slice(filter.mean());
         belief.factor.copy_from_slice(filter.factor());
-        if square > 0 {
-            filter.write_cov(belief.cov);
-        }
-        self.go_back::<X::Form>(filter.time(), 0, steps, visit)
+        filter.write_cov(belief.cov);
+        self.go_back(filter.time(), filter.learnt(), 0, steps, visit)
     }
 
-    /// The same from any belief at the time of the latest record but `skip`.
+    /// The same from a belief at the time of the latest record but `skip`, with every update at that time: the filter's own
+    /// before its next prediction.
     ///
     /// # Errors
     /// As [`smooth`](Self::smooth).
@@ -154,90 +173,103 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
         steps: usize,
         visit: impl FnMut(usize, &Belief<T>),
     ) -> Result<(), StepError> {
-        self.room::<F>(start.mean.len()).map_err(|fault| StepError { fault, time: start.time, step: 0 })?;
-        let square = if F::SQUARE_ROOT { 0 } else { self.states * self.states };
-        let (belief, ..) = self.carve(square);
+        let room = self.room(start.mean.len(), F::SQUARE_ROOT);
+        room.map_err(|fault| StepError { fault, time: start.time, step: 0 })?;
+        let (n, (_, mut rest)) = (self.states, self.carve());
+        let belief = present(n, &mut rest);
         let put = |to: &mut [T], from: &[f64]| to.iter_mut().zip(from).for_each(|(to, &x)| *to = T::of(x));
         put(belief.mean, start.mean);
         put(belief.factor, start.factor);
         put(belief.cov, start.cov);
-        self.go_back::<F>(start.time, skip, steps, visit)
+        self.go_back(start.time, (&[], &[]), skip, steps, visit)
     }
 
-    /// The means alone, by the gains alone (2011 §7, remark ii): `mean`, of length n, is that of the latest record's end,
-    /// and becomes the smoothed one at each earlier time in turn.
+    /// The means alone, by the gains alone (2011 §7, remark ii): `visit` is called as in [`smooth`](Self::smooth).
     ///
     /// # Errors
-    /// A mean of another length, or too little memory.
-    pub fn smooth_means(
+    /// A filter that does not go with this history.
+    pub fn smooth_means<X: Over<M>, M, C: Grow<T>>(
         &mut self,
-        mean: &mut [T],
+        filter: &Filter<'_, X, M, T, C>,
         steps: usize,
         mut visit: impl FnMut(usize, &[T]),
-    ) -> Result<(), Fault> {
-        let room = if self.square_root {
-            self.room::<SquareRoot>(mean.len())
-        } else {
-            self.room::<Covariance>(mean.len())
-        };
-        room?;
-        let (newest, capacity, count) = (self.oldest + self.count, self.capacity, self.count);
-        let (square_root, len) = (self.square_root, Self::record_len(self.states, self.square_root));
-        let (_, records, scratch) = self.carve(0);
+    ) -> Result<(), StepError> {
+        self.fits(filter)?;
+        let (n, newest, capacity, count) = (self.states, self.oldest + self.count, self.capacity, self.count);
+        let (records, mut rest) = self.carve();
+        let mean = take(&mut rest, n);
+        mean.copy_from_slice(filter.mean());
         visit(0, mean);
-        for age in 1..=steps.min(count) {
-            let slot = (newest - age) % capacity;
-            let passage = passage(&records[slot * len..(slot + 1) * len], &[], mean.len(), square_root);
-            mean_back(&passage, mean, scratch);
-            visit(age, mean);
+        let record = |age: usize| {
+            let len = Self::record_len(n);
+            &records[(newest - age) % capacity * len..][..len]
+        };
+        if X::Form::SQUARE_ROOT {
+            let (shift, turn) = filter.learnt();
+            let mut coordinates = Coordinates::start(n, shift, turn, &mut rest);
+            for age in 1..=steps.min(count) {
+                let record = Rotated::of(record(age), n);
+                coordinates.mean_back(&record, rest);
+                coordinates.write_mean(&record, mean);
+                visit(age, mean);
+            }
+        } else {
+            for age in 1..=steps.min(count) {
+                mean_back(&Passage::of(record(age), &[], n), mean, rest);
+                visit(age, mean);
+            }
         }
         Ok(())
     }
 
-    /// The belief on its way back, the records, and scratch.
-    fn carve(&mut self, square: usize) -> (Belief<'_, T>, &[T], &mut [T]) {
-        let (n, len) = (self.states, Self::record_len(self.states, self.square_root));
-        let (records, mut rest) = self.memory.as_mut().split_at_mut(self.capacity * len);
-        let rest_of = &mut rest;
-        let belief = Belief {
-            mean: take(rest_of, n),
-            factor: take(rest_of, n * n),
-            cov: take(rest_of, square),
-            moved: &mut [],
-        };
-        (belief, records, rest)
+    /// The records, and memory beside them.
+    fn carve(&mut self) -> (&[T], &mut [T]) {
+        let (records, rest) =
+            self.memory.as_mut().split_at_mut(self.capacity * Self::record_len(self.states));
+        (records, rest)
     }
 
-    fn go_back<F: Form>(
+    fn go_back(
         &mut self,
         time: f64,
+        (shift, turn): (&[T], &[T]),
         skip: usize,
         steps: usize,
         mut visit: impl FnMut(usize, &Belief<T>),
     ) -> Result<(), StepError> {
-        let n = self.states;
-        let (len, capacity, count) = (Self::record_len(n, self.square_root), self.capacity, self.count);
-        let newest = self.oldest + count - skip.min(count);
-        let square = if F::SQUARE_ROOT { 0 } else { n * n };
-        let (mut belief, records, rest) = self.carve(square);
+        let (n, square_root, capacity) = (self.states, self.square_root, self.capacity);
+        let held = self.count - skip.min(self.count);
+        let newest = self.oldest + held;
+        let (records, mut rest) = self.carve();
+        let mut belief = present(n, &mut rest);
         visit(0, &belief);
-        let held = count - skip.min(count);
         let record = |age: usize| {
-            let slot = (newest - age) % capacity;
-            &records[slot * len..(slot + 1) * len]
+            let len = Self::record_len(n);
+            &records[(newest - age) % capacity * len..][..len]
         };
+        if square_root {
+            let mut coordinates = Coordinates::start(n, shift, turn, &mut rest);
+            for age in 1..=steps.min(held) {
+                let record = Rotated::of(record(age), n);
+                coordinates.back(&record, rest);
+                coordinates.write(&record, &mut belief);
+                visit(age, &belief);
+            }
+            return Ok(());
+        }
         for age in 1..=steps.min(held) {
-            let before = if age < held { &record(age + 1)[2 * n + square..][..square] } else { &[] };
-            let passage = passage(record(age), before, n, F::SQUARE_ROOT);
-            step_back::<T, F>(&passage, &mut belief, rest).map_err(|fault| StepError {
-                fault,
-                time,
-                step: newest - age,
-            })?;
+            let before = if age < held { &record(age + 1)[2 * n + n * n..][..n * n] } else { &[] };
+            step_back(&Passage::of(record(age), before, n), &mut belief, rest)
+                .map_err(|fault| StepError { fault, time, step: newest - age })?;
             visit(age, &belief);
         }
         Ok(())
     }
+}
+
+/// The belief on its way back.
+fn present<'a, T>(n: usize, memory: &mut &'a mut [T]) -> Belief<'a, T> {
+    Belief { mean: take(memory, n), factor: take(memory, n * n), cov: take(memory, n * n), moved: &mut [] }
 }
 
 /// A filter must leave what its smoother needs.
@@ -249,23 +281,4 @@ pub(super) fn for_smoothing<X: Over<M>, M, T: Real, C: Grow<T>>(
         return Ok(());
     }
     Err(Fault::Length { of: "the gain of a filter that was not started for smoothing", expected, found })
-}
-
-/// The arrays of one record; `before` is the predicted covariance of the one before it.
-fn passage<'a, T>(mut record: &'a [T], before: &'a [T], n: usize, square_root: bool) -> Passage<'a, T> {
-    let square = if square_root { 0 } else { n * n };
-    let mut next = |len: usize| {
-        let (head, tail) = record.split_at(len);
-        record = tail;
-        head
-    };
-    Passage {
-        mean: next(n),
-        cov: next(square),
-        before,
-        predicted_mean: next(n),
-        predicted_cov: next(square),
-        gain: next(n * n),
-        conditional: next(n * n - square),
-    }
 }

@@ -6,7 +6,7 @@
 mod back;
 mod fixed_point;
 mod history;
+mod rotated;
 
-pub use back::{Passage, mean_back, step_back};
 pub use fixed_point::FixedPoint;
 pub use history::History;

@@ -47,7 +47,7 @@ impl<'m, X: Over<M>, M, H: Observation> Recorder<'m, X, M, H> {
             Goal::Lag(lag) => lag.min(rows),
         };
         let square_root = X::Form::SQUARE_ROOT;
-        let memory = vec![0.0; History::<f64, Vec<f64>>::memory_len(n, square_root, capacity)];
+        let memory = vec![0.0; History::<f64, Vec<f64>>::memory_len(n, capacity)];
         let mut recorder = Self {
             filter,
             sensors,
@@ -66,7 +66,7 @@ impl<'m, X: Over<M>, M, H: Observation> Recorder<'m, X, M, H> {
     fn begin_point(&mut self, t: f64) -> Result<(), StepError> {
         if self.point.is_none() && self.goal == Goal::Point(t) {
             let memory = vec![0.0; FixedPoint::<f64, Vec<f64>>::memory_len(self.filter.mean().len())];
-            self.point = Some(FixedPoint::begin(&self.filter, memory)?);
+            self.point = Some(FixedPoint::begin(&mut self.filter, memory)?);
         }
         Ok(())
     }
@@ -155,11 +155,13 @@ impl<'m, X: Over<M>, M, H: Observation> Recorder<'m, X, M, H> {
             Goal::Lag(lag) => lag.min(last),
             Goal::Filter | Goal::Point(_) => return Ok(()),
         };
-        let start =
-            Prior { time: out.time[last], mean: &self.last.0, factor: &self.last.1, cov: &self.last.2 };
-        let skip = usize::from(failed && self.predicted);
-        self.history
-            .smooth_from::<X::Form>(start, skip, steps, |age, belief| put::<X::Form>(out, last - age, belief))
+        let time = out.time[last];
+        let put = |age: usize, belief: &Belief<f64>| put::<X::Form>(out, last - age, belief);
+        if !failed {
+            return self.history.smooth(&self.filter, steps, put);
+        }
+        let start = Prior { time, mean: &self.last.0, factor: &self.last.1, cov: &self.last.2 };
+        self.history.smooth_from::<X::Form>(start, usize::from(self.predicted), steps, put)
     }
 }
 

@@ -83,8 +83,8 @@ impl<M: Sde> TimeUpdate<M> for EulerMaruyama {
         let root = at.dt.sqrt();
         noise.iter_mut().for_each(|g| *g *= root);
         let entries = varies.then_some(root);
-        let (lost, rounding) = (shape.minus, rule.rounding(n));
-        let stacked = Stacked { spread, entries, q, noise, known: q, lost, rounding };
+        let lost = shape.minus;
+        let stacked = Stacked { spread, entries, q, noise, known: q, lost };
         Ok(finish::<T, F>(stacked, belief, back, scratch)?)
     }
 }

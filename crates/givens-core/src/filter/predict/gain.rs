@@ -1,84 +1,70 @@
-//! What a time update leaves for the smoother: its gain, and the covariance of a state given the next one.
+//! What a time update leaves for the smoother.
 
 use super::lanes;
 use crate::filter::error::{Fault, Matrix};
 use crate::filter::memory::{put_columns, take};
-use crate::kernels::{Health, copy_lower, divide_lower, divide_lower_transposed, downdate, sweep, tria};
+use crate::kernels::{Health, copy_lower, divide_lower, divide_lower_transposed, downdate, tria};
 use crate::scalar::Real;
 
-/// What is recorded of a time update for the way back.
+/// What a time update leaves for the way back.
+///
+/// In square-root form it is told in the coordinates of the roots: x_k = m_k + S_k u and x_{k+1} = m⁻ + S⁻ a with u and a
+/// standard normal, and u given a is N(Ω a, Γ Γᵀ). Both are parts of a rotation: nothing is divided, and nothing grows.
 #[derive(Debug)]
 pub struct Backward<'a, T> {
-    /// G = Cov[x_k, x_{k+1}] (P⁻)⁻¹, n × n.
+    /// Square-root form: Ω, n × n. Covariance form: G = Cov[x_k, x_{k+1}] (P⁻)⁻¹.
     pub gain: &'a mut [T],
-    /// Square-root form: a root D of P_k − G P⁻ Gᵀ, the covariance of x_k given x_{k+1}, n × n.
-    /// Empty in covariance form.
+    /// Square-root form: Γ, lower triangular n × n. Empty in covariance form.
     pub conditional: &'a mut [T],
 }
 
-/// Scalars of scratch of [`gain_of_factor`], for `rest` columns of E and noise.
-pub(super) const fn gain_scratch(n: usize, rest: usize) -> usize {
-    let wide = if rest > n { rest } else { n };
-    n * wide + 4 * n * n + 4 * n
+/// Scalars of scratch of [`rotation`], for `stride` columns of D, E and noise.
+pub(super) const fn rotation_scratch(n: usize, stride: usize) -> usize {
+    2 * n * wide(n, stride) + 2 * n
 }
 
-/// [U11 0; U21 U22] = Tria([D E S_Q; S 0 0]), G = U21/U11, conditional root U22 (2011 Table 3; `docs/algorithms.md` S2).
-///
-/// `size(i)` is the magnitude of the numbers whose differences make row i of `dev`: their rounding bounds what may be
-/// divided by.
+/// Columns that the triangle of two blocks and its source need.
+const fn wide(n: usize, stride: usize) -> usize {
+    if stride > 2 * n { stride } else { 2 * n }
+}
+
+/// [S⁻ 0; Ω Γ] = Tria([D E S_Q; I 0 0]) (2011 Table 3 in the coordinates of the roots; `docs/algorithms.md` S2). The upper
+/// left block, S⁻, goes to `next`: to the bit the one that a prediction without a way back finds.
 #[inline(always)]
-pub(super) fn gain_of_factor<T: Real>(
+pub(super) fn rotation<T: Real>(
     dev: &[T],
     stride: usize,
     minus: &[T],
-    factor: &[T],
-    size: impl Fn(usize) -> T,
+    lost: usize,
+    next: &mut [T],
     back: &mut Backward<T>,
     mut scratch: &mut [T],
 ) -> Result<T::Mask, Fault> {
-    let n = back_len(factor);
-    let rest = stride - n;
-    let wide = rest.max(n);
-    let noise = take(&mut scratch, n * wide);
-    let block = take(&mut scratch, 4 * n * n);
+    let n = next.len().isqrt();
+    let wide = wide(n, stride);
+    let block = take(&mut scratch, 2 * n * wide);
     let column = take(&mut scratch, 2 * n);
-    let rounding = take(&mut scratch, n);
-    for (i, (error, row)) in rounding.iter_mut().zip(dev.chunks_exact(stride)).enumerate() {
-        let norm = row.iter().fold(T::zero(), |sum, &x| x.mul_add(x, sum)).sqrt();
-        *error = T::of(8.0 * T::EPSILON) * T::of(n as f64).mul_add(norm, size(i));
-    }
-    for (to, from) in noise.chunks_exact_mut(wide).zip(dev.chunks_exact(stride)) {
-        to[..rest].copy_from_slice(&from[n..]);
-    }
-    let mut sick = tria(noise, n, rest, wide).sick;
     block.fill(T::zero());
+    put_columns(block, wide, 0, dev, stride);
     for i in 0..n {
-        block[i * 2 * n..][..n].copy_from_slice(&noise[i * wide..][..n]);
-        block[i * 2 * n + n..][..n].copy_from_slice(&dev[i * stride..][..n]);
+        block[(n + i) * wide + i] = T::one();
     }
-    put_columns(&mut block[2 * n * n..], 2 * n, n, factor, n);
-    sick = sick | sweep(block, n, n, rounding, scratch).sick;
-    let columns = minus.len() / n;
-    for k in 0..columns {
+    let mut sick = split(tria(block, 2 * n, stride, wide), n, Matrix::Predicted, Matrix::Conditional)?;
+    for k in 0..lost {
         column.fill(T::zero());
-        for (v, row) in column.iter_mut().zip(minus.chunks_exact(columns)) {
+        for (v, row) in column.iter_mut().zip(minus.chunks_exact(lost)) {
             *v = row[k];
         }
         sick =
-            sick | split(downdate(block, 2 * n, 2 * n, column), n, Matrix::Predicted, Matrix::Conditional)?;
+            sick | split(downdate(block, 2 * n, wide, column), n, Matrix::Predicted, Matrix::Conditional)?;
     }
     for i in 0..n {
-        let row = &block[(n + i) * 2 * n..(n + i + 1) * 2 * n];
+        let row = &block[(n + i) * wide..(n + i + 1) * wide];
+        next[i * n..(i + 1) * n].copy_from_slice(&block[i * wide..][..n]);
         back.gain[i * n..(i + 1) * n].copy_from_slice(&row[..n]);
-        back.conditional[i * n..(i + 1) * n].copy_from_slice(&row[n..]);
+        back.conditional[i * n..(i + 1) * n].copy_from_slice(&row[n..2 * n]);
     }
-    divide_lower(back.gain, n, n, block, 2 * n);
     Ok(sick)
-}
-
-/// n, from a matrix of n × n.
-fn back_len<T>(square: &[T]) -> usize {
-    square.len().isqrt()
 }
 
 /// The fault of a block of two: pivots from `first` on belong to the second matrix.
@@ -104,7 +90,7 @@ pub(super) fn gain_of_covariance<T: Real>(
     next: &[T],
     back: &mut Backward<T>,
 ) {
-    let n = back_len(factor);
+    let n = factor.len().isqrt();
     for (to, s) in back.gain.chunks_exact_mut(n).zip(factor.chunks_exact(n)) {
         for (g, d) in to.iter_mut().zip(dev.chunks_exact(stride)) {
             *g = s.iter().zip(d).fold(T::zero(), |sum, (&x, &y)| x.mul_add(y, sum));
@@ -119,7 +105,7 @@ pub(crate) const fn accumulate_scratch(n: usize) -> usize {
     3 * n * n
 }
 
-/// Chains a later step onto an earlier one (docs/algorithms.md S3): D ← Tria([D  Γ D']), Γ ← Γ G'.
+/// Chains a later step onto an earlier one (docs/algorithms.md S3): Γ ← Tria([Γ  Ω Γ']), Ω ← Ω Ω'; or G ← G G'.
 ///
 /// Both hold n × n matrices; the conditional roots are empty in covariance form. `scratch` holds 3 n² scalars.
 #[inline(always)]

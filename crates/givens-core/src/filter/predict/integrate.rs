@@ -2,7 +2,7 @@
 
 use super::gain::{Backward, gain_of_covariance};
 use super::image::Image;
-use super::moments::gather;
+use super::moments::{dot, gather};
 use super::{Given, Stopped};
 use crate::filter::error::{Fault, Halt, Matrix, Quantity};
 use crate::filter::form::{Belief, Form};
@@ -90,7 +90,6 @@ pub(super) fn integrate<T: Real, C: Carrier, F: Form, M, R>(
                 carrier,
                 at,
                 table,
-                belief.factor,
                 segment,
                 back.conditional,
                 own,
@@ -105,8 +104,16 @@ pub(super) fn integrate<T: Real, C: Carrier, F: Form, M, R>(
     }
     carrier.factor(y, next)?;
     if let Some(back) = back {
-        // G = S₀ Xᵀ (P⁻)⁻¹
-        gain_of_covariance(carrier.carried(y), n, belief.factor, next, back);
+        if F::SQUARE_ROOT {
+            // Ω = (S⁻¹ X)ᵀ
+            for (j, row) in back.gain.chunks_exact_mut(n).enumerate() {
+                gather(carrier.carried(y), n, j, row);
+                solve_lower(next, n, row);
+            }
+        } else {
+            // G = S₀ Xᵀ (P⁻)⁻¹
+            gain_of_covariance(carrier.carried(y), n, belief.factor, next, back);
+        }
     }
     belief.mean.copy_from_slice(&y[..n]);
     if !F::SQUARE_ROOT {
@@ -134,17 +141,16 @@ fn fault(stop: &Stop<Fault>, states: usize) -> Fault {
 }
 
 const fn conditional_scratch(n: usize, columns: usize, lengths: Lengths) -> usize {
-    lengths.state + 2 * n * n + n * columns + n * (n + columns) + 2 * n + lengths.image
+    lengths.state + 2 * n * n + n * columns + n * (n + columns) + n + lengths.image
 }
 
-/// Adds to D what a step leaves unknown of the state at the start of the gap: D Dᵀ = ∫ Γ N J Nᵀ Γᵀ dt along the way, Γ =
-/// S₀ Xᵀ P⁻¹ the gain up to there. Weights and columns are positive: no difference is taken (docs/algorithms.md C14).
+/// Adds to Γ what a step leaves unknown of the state at the start of the gap, in the coordinates of the roots: Γ Γᵀ =
+/// ∫ Kᵀ H J Hᵀ K dt along the way, K = S⁻¹ X and H = S⁻¹ N (docs/algorithms.md C14). No difference is taken.
 #[inline(always)]
 fn conditional<T: Real, C: Carrier>(
     carrier: &C,
     at: &At<T>,
     table: &[T],
-    start: &[T],
     segment: &Segment<T>,
     root: &mut [T],
     mut scratch: &mut [T],
@@ -160,7 +166,6 @@ fn conditional<T: Real, C: Carrier>(
     let stride = n + plus;
     let wide = take(&mut scratch, n * stride);
     let column = take(&mut scratch, n);
-    let seen = take(&mut scratch, n);
     let mut health = Health::good();
     for (theta, weight) in NODES {
         segment.at(theta, y);
@@ -178,11 +183,8 @@ fn conditional<T: Real, C: Carrier>(
         for j in 0..columns {
             gather(noise, columns, j, column);
             solve_lower(s, n, column);
-            for (seen, k) in seen.iter_mut().zip(k.chunks_exact(n)) {
-                *seen = length * super::moments::dot(k, column);
-            }
-            for i in 0..n {
-                let x = super::moments::dot(&start[i * n..(i + 1) * n], seen);
+            for (i, k) in k.chunks_exact(n).enumerate() {
+                let x = length * dot(k, column);
                 if j < plus {
                     wide[i * stride + n + j] = x;
                 } else {

@@ -127,8 +127,8 @@ impl<M: Sde> TimeUpdate<M> for ItoTaylor {
             }
         }
         let entries = full.then_some(root * delta * T::of(3.0f64.sqrt().recip()));
-        let (lost, rounding) = (shape.minus, rule.rounding(n));
-        let stacked = Stacked { spread, entries, q, noise, known: 2 * q, lost, rounding };
+        let lost = shape.minus;
+        let stacked = Stacked { spread, entries, q, noise, known: 2 * q, lost };
         Ok(finish::<T, F>(stacked, belief, back, scratch)?)
     }
 }

@@ -26,8 +26,6 @@ pub(super) struct Stacked<'a, T> {
     pub known: usize,
     /// Negative columns of the rule.
     pub lost: usize,
-    /// [`Rule::rounding`](crate::rule::Rule::rounding).
-    pub rounding: f64,
 }
 
 /// Scalars of scratch for n states, q noises, at most `known` known columns, a map of `outputs` outputs with its scratch.
@@ -56,7 +54,7 @@ pub(super) fn finish<T: Real, F: Form>(
     back: Option<&mut Backward<T>>,
     mut scratch: &mut [T],
 ) -> Result<T::Mask, Fault> {
-    let Stacked { spread, entries, q, noise, known, lost, rounding } = stacked;
+    let Stacked { spread, entries, q, noise, known, lost } = stacked;
     let n = belief.mean.len();
     let width = spread.stride;
     let spreads = if entries.is_some() { q } else { 0 };
@@ -86,7 +84,7 @@ pub(super) fn finish<T: Real, F: Form>(
         }
     }
     let mean = &spread.mean[..n];
-    settle::<T, F>(Moved { mean, dev, stride, minus, lost: all_lost, rounding }, belief, back, scratch)
+    settle::<T, F>(Moved { mean, dev, stride, minus, lost: all_lost }, belief, back, scratch)
 }
 
 /// The first component of a stacked spread that is not finite, as a fault.

@@ -1,6 +1,6 @@
 //! The end of a step whose image and noise stand in one matrix [D E N]: P⁻ = D Dᵀ + E J Eᵀ + N Nᵀ.
 
-use super::gain::{Backward, gain_of_covariance, gain_of_factor, gain_scratch};
+use super::gain::{Backward, gain_of_covariance, rotation, rotation_scratch};
 use super::lanes;
 use crate::filter::error::{Fault, Matrix};
 use crate::filter::form::{Belief, Form};
@@ -21,13 +21,11 @@ pub(super) struct Moved<'a, T> {
     pub minus: &'a [T],
     /// Their number.
     pub lost: usize,
-    /// The error of a row that a unit error of every image makes.
-    pub rounding: f64,
 }
 
 /// Scalars of scratch of [`settle`].
 pub(super) const fn settle_scratch(n: usize, stride: usize, smoothing: bool) -> usize {
-    n + 2 * n * n + if smoothing { gain_scratch(n, stride - n) } else { 0 }
+    n + 2 * n * n + if smoothing { rotation_scratch(n, stride) } else { 0 }
 }
 
 /// Moves `belief`; with `back`, also what a smoother needs to come back. After a fault the belief is as before.
@@ -39,23 +37,25 @@ pub(super) fn settle<T: Real, F: Form>(
     mut scratch: &mut [T],
 ) -> Result<T::Mask, Fault> {
     let n = belief.mean.len();
-    let Moved { mean, dev, stride, minus, lost, rounding } = moved;
+    let Moved { mean, dev, stride, minus, lost } = moved;
     let scale = take(&mut scratch, n);
     let mut sick = T::Mask::splat(false);
     if F::SQUARE_ROOT {
-        if let Some(back) = back {
-            let rounding = T::of(rounding);
-            let size = |i: usize| rounding * mean[i].abs().max(belief.mean[i].abs());
-            sick = sick | gain_of_factor(dev, stride, minus, belief.factor, size, back, scratch)?;
-        }
-        sick = sick | lanes(tria(dev, n, stride, stride), Matrix::Predicted)?;
-        for column in 0..lost {
-            for (v, row) in scale.iter_mut().zip(minus.chunks_exact(lost)) {
-                *v = row[column];
+        let next = take(&mut scratch, n * n);
+        match back {
+            Some(back) => sick = sick | rotation(dev, stride, minus, lost, next, back, scratch)?,
+            None => {
+                sick = sick | lanes(tria(dev, n, stride, stride), Matrix::Predicted)?;
+                for column in 0..lost {
+                    for (v, row) in scale.iter_mut().zip(minus.chunks_exact(lost)) {
+                        *v = row[column];
+                    }
+                    sick = sick | lanes(downdate(dev, n, stride, scale), Matrix::Predicted)?;
+                }
+                copy_lower(next, n, dev, stride);
             }
-            sick = sick | lanes(downdate(dev, n, stride, scale), Matrix::Predicted)?;
         }
-        copy_lower(belief.factor, n, dev, stride);
+        belief.factor.copy_from_slice(next);
     } else {
         let cov = take(&mut scratch, n * n);
         let next = take(&mut scratch, n * n);

@@ -111,8 +111,7 @@ impl<M: Transition> TimeUpdate<M> for OneTransition {
             return Err(Fault::NotFinite { quantity: Quantity::ProcessNoise, component }.into());
         }
         put_columns(dev, stride, n + shape.plus, root, q);
-        let rounding = rule.rounding(n);
-        let moved = Moved { mean, dev, stride, minus, lost: shape.minus, rounding };
+        let moved = Moved { mean, dev, stride, minus, lost: shape.minus };
         Ok(sick | settle::<T, F>(moved, belief, back, scratch)?)
     }
 }

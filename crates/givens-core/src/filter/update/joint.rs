@@ -39,7 +39,7 @@ pub(super) fn update<T: Real>(
         block[i * size + d..][..n].copy_from_slice(&sensed.dev[i * stride..][..n]);
     }
     put_columns(&mut block[d * size..], size, d, belief.factor, n);
-    sick = sick | sweep(block, d, n, &[], scratch).sick;
+    sick = sick | sweep(block, d, n, scratch).sick;
     for k in 0..sensed.lost {
         column.fill(T::zero());
         for (v, row) in column.iter_mut().zip(sensed.minus.chunks_exact(sensed.lost)).take(d) {

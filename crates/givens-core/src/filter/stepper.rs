@@ -26,7 +26,7 @@ use core::marker::PhantomData;
 /// assert!((f.mean()[0] - 1300.0).abs() < 20.0 && f.innovation().nis < 9.2);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct Filter<'m, X, M, T, B> {
     pub(super) method: X,
     pub(super) model: &'m M,
@@ -42,6 +42,12 @@ pub struct Filter<'m, X, M, T, B> {
     pub(super) moved: bool,
     pub(super) memory: B,
     scalar: PhantomData<T>,
+}
+
+impl<X: Clone, M, T, B: Clone> Clone for Filter<'_, X, M, T, B> {
+    fn clone(&self) -> Self {
+        Self { method: self.method.clone(), memory: self.memory.clone(), ..*self }
+    }
 }
 
 /// The arrays of a filter.

@@ -27,7 +27,7 @@ fn one_track_that_fails_leaves_the_others() {
     let found = folder.run("filter walk.toml data.csv -o out.csv");
     assert_eq!((found.code, found.stdout.as_str()), (1, ""));
     let words = "data.csv:6: track b, t = 3, step 4: the filter failed: the transition of `x` is not a finite number; \
-                 look for a division by zero, the root of a negative number, or an estimate that runs away\n  2 rows of track b finished before";
+                 look for a division by zero, the root of a negative number, or an estimate that runs away\n  the step set out from x = 65.294\n  2 rows of track b finished before";
     assert!(found.stderr.contains(words), "{}", found.stderr);
     let cells = super::common::cells(&folder.read("out.csv"));
     let keys: Vec<String> = cells[1..].iter().map(|row| row[..2].join("")).collect();

@@ -55,8 +55,7 @@ pub(super) fn rotation<T: Real>(
         for (v, row) in column.iter_mut().zip(minus.chunks_exact(lost)) {
             *v = row[k];
         }
-        sick =
-            sick | split(downdate(block, 2 * n, wide, column), n, Matrix::Predicted, Matrix::Conditional)?;
+        sick = sick | split(downdate(block, 2 * n, wide, column), n, Matrix::Predicted, Matrix::Conditional)?;
     }
     for i in 0..n {
         let row = &block[(n + i) * wide..(n + i + 1) * wide];

@@ -73,6 +73,7 @@ PLANS = {
     "known_state": Plan(7, every(2.0, 10)),
     "duplicated_state": Plan(8, every(0.5, 10), hard=SMALL),
     "no_noise": Plan(9, every(0.5, 12), hard=SMALL),
+    "contracting": Plan(18, every(1.0, 40), rules=("cubature3", "unscented", "central_difference", "taylor")),
     "growing_rank": Plan(10, every(1.0, 10), hard=SMALL + ("unscented", "unscented_half")),
     "reentry": Plan(
         11,

@@ -17,7 +17,7 @@ use serde_json::Value;
 use std::path::PathBuf;
 
 /// The scenarios of `golden` with expected values.
-pub const SCENARIOS: [&str; 17] = [
+pub const SCENARIOS: [&str; 18] = [
     "missing",
     "crossing",
     "degrees",
@@ -28,6 +28,7 @@ pub const SCENARIOS: [&str; 17] = [
     "duplicated_state",
     "no_noise",
     "growing_rank",
+    "contracting",
     "reentry",
     "prediction_rows",
     "one_time",

@@ -5,6 +5,7 @@ mod distinct;
 mod error;
 mod form;
 mod gaussian;
+mod known;
 pub(crate) mod memory;
 mod methods;
 pub mod predict;

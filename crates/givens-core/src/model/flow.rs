@@ -44,7 +44,7 @@ impl<M: Sde> Map for Flow<'_, M> {
         if self.diffusion {
             let (n, entries) = (self.model.states(), self.entries());
             super::points_one_by_one(n, entries, points, x, g, scratch, |x, g| {
-                self.model.diffusion(at, x, g)
+                self.model.diffusion(at, x, g);
             });
         }
     }

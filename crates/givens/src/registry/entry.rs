@@ -47,8 +47,7 @@ const CKF5: &str = "Jia, Xin & Cheng 2013, High-degree cubature Kalman filter, A
 const EKF: &str = "Jazwinski 1970, Stochastic Processes and Filtering Theory";
 const CD_CKF: &str = "Arasaratnam, Haykin & Hurd 2010, Cubature Kalman filtering for continuous-discrete \
                       systems, IEEE TSP 58(10)";
-const CD_CKF2: &str =
-    "Särkkä & Solin 2012, On continuous-discrete cubature Kalman filtering, 16th IFAC Symposium on System Identification";
+const CD_CKF2: &str = "Särkkä & Solin 2012, On continuous-discrete cubature Kalman filtering";
 const CD_UKF: &str = "Särkkä 2007, On unscented Kalman filtering for state estimation of continuous-time \
                       nonlinear systems, IEEE TAC 52(9)";
 const ACD_EKF: &str = "Kulikov & Kulikova 2014, Accurate numerical implementation of the continuous-discrete \

@@ -81,7 +81,9 @@ impl<M: Sde> TimeUpdate<M> for EulerMaruyama {
             diffusion(model, at, belief.mean, noise)?;
         }
         let root = at.dt.sqrt();
-        noise.iter_mut().for_each(|g| *g *= root);
+        for g in &mut *noise {
+            *g *= root;
+        }
         let entries = varies.then_some(root);
         let lost = shape.minus;
         let stacked = Stacked { spread, entries, q, noise, known: q, lost };

@@ -102,7 +102,7 @@ impl<I: Image> System for Front<I> {
             for (error, allowed) in spread.chain(core::iter::once(mean)) {
                 let size = if error == 0.0 { 0.0 } else { error / allowed };
                 // a NaN is worse than anything
-                if !(size <= worst) {
+                if size > worst || size.is_nan() {
                     worst = size;
                 }
             }

@@ -206,7 +206,7 @@ impl<I: Image> System for Moments<I> {
             let error = error.first().abs();
             let size = if error == 0.0 { 0.0 } else { error / allowed };
             // a NaN is worse than anything
-            if !(size <= worst) {
+            if size > worst || size.is_nan() {
                 worst = size;
             }
         };

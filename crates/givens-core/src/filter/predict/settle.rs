@@ -42,18 +42,17 @@ pub(super) fn settle<T: Real, F: Form>(
     let mut sick = T::Mask::splat(false);
     if F::SQUARE_ROOT {
         let next = take(&mut scratch, n * n);
-        match back {
-            Some(back) => sick = sick | rotation(dev, stride, minus, lost, next, back, scratch)?,
-            None => {
-                sick = sick | lanes(tria(dev, n, stride, stride), Matrix::Predicted)?;
-                for column in 0..lost {
-                    for (v, row) in scale.iter_mut().zip(minus.chunks_exact(lost)) {
-                        *v = row[column];
-                    }
-                    sick = sick | lanes(downdate(dev, n, stride, scale), Matrix::Predicted)?;
+        if let Some(back) = back {
+            sick = sick | rotation(dev, stride, minus, lost, next, back, scratch)?;
+        } else {
+            sick = sick | lanes(tria(dev, n, stride, stride), Matrix::Predicted)?;
+            for column in 0..lost {
+                for (v, row) in scale.iter_mut().zip(minus.chunks_exact(lost)) {
+                    *v = row[column];
                 }
-                copy_lower(next, n, dev, stride);
+                sick = sick | lanes(downdate(dev, n, stride, scale), Matrix::Predicted)?;
             }
+            copy_lower(next, n, dev, stride);
         }
         belief.factor.copy_from_slice(next);
     } else {

@@ -24,12 +24,11 @@ pub fn paths(model: &Model, args: &SimulateArgs) -> Result<Paths, Stop> {
     let with_state = sde.diffusion_varies() == Varies::WithState;
     let scheme = match args.scheme {
         Some(SchemeArg::EulerMaruyama) => Scheme::EulerMaruyama,
-        Some(SchemeArg::ItoTaylor) => Scheme::ItoTaylor,
         None if with_state => {
             say("the diffusion depends on the state: the path is followed by euler-maruyama");
             Scheme::EulerMaruyama
         }
-        None => Scheme::ItoTaylor,
+        Some(SchemeArg::ItoTaylor) | None => Scheme::ItoTaylor,
     };
     let default = Paths::default().steps;
     let steps = args.max_step.map(Steps::Longest).or(args.substeps.map(Steps::Count)).unwrap_or(default);

@@ -1,5 +1,6 @@
 //! Paths of stochastic differential equations: one step by the oracle's numbers, and the strong orders of both schemes, from
 //! fine and coarse steps that the same noise drives.
+#![allow(clippy::unwrap_used)]
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 use givens::Data;

@@ -44,7 +44,7 @@ impl Observation for Straight {
 
 type Own<'m, X, T> = Filter<'m, X, Straight, T, Vec<T>>;
 
-fn start<T: Real, X: Method>(method: X, model: &Straight, mean: [f64; 2], std: [f64; 2]) -> Own<'_, X, T>
+fn start<T: Real, X>(method: X, model: &Straight, mean: [f64; 2], std: [f64; 2]) -> Own<'_, X, T>
 where
     X: givens::filter::Over<Straight>,
 {

@@ -80,7 +80,7 @@ impl<X: Method, M, T: Real, B: AsRef<[T]>> Filter<'_, X, M, T, B> {
     }
 
     /// Of the updates since the last prediction, what a smoother needs: shift, of length n, and turn, n × n (see
-    /// [`Learnt`]). Empty in covariance form, and unless the filter was started for smoothing.
+    /// [`Learnt`](super::Learnt)). Empty in covariance form, and unless the filter was started for smoothing.
     pub fn learnt(&self) -> (&[T], &[T]) {
         let (n, (square, root)) = (self.layout.sizes.states, self.back_len());
         let at = if X::Form::SQUARE_ROOT { n + n * n } else { n + 2 * n * n } + 2 * (square + root);

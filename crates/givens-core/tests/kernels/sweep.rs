@@ -1,6 +1,6 @@
 //! The sweep is Tria of the block that it is given, without its zeros.
 
-use super::matrix::{Matrix, apart, deficient, factor, is_factor};
+use super::matrix::{Matrix, apart, factor, is_factor};
 use givens_core::kernels::{sweep, tria};
 use givens_core::scalar::Real;
 use proptest::prelude::*;

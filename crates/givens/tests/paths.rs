@@ -2,7 +2,6 @@
 //! fine and coarse steps that the same noise drives.
 #![allow(clippy::unwrap_used)]
 
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 use givens::Data;
 use givens::filter::{Fault, Gaussian};
 use givens::model::zoo::{Radar3d, Turn3d};

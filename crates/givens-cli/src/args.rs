@@ -40,7 +40,7 @@ pub enum Command {
   givens simulate turn.toml --steps 100 --seed 1 -o radar.csv --states truth.csv
   givens simulate turn.toml --until 60 --every 0.5 --runs 9 --seed 7 -o runs.csv
   givens simulate turn.toml --times radar.csv --seed 1    the rows of a table
-  givens simulate flight.toml --until 60 --every 2 --substeps 32 --seed 1    of a continuous model")]
+  givens simulate swing.toml --until 9 --every 0.3 --substeps 32 --seed 1")]
     Simulate(SimulateArgs),
     /// Run several methods over the same data, side by side
     #[command(after_help = "Examples:

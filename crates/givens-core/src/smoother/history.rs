@@ -120,8 +120,9 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
         Ok(())
     }
 
-    /// Completes the newest record, in square-root form, by what the updates at its end have learnt.
-    fn close<X: Over<M>, M, C: Grow<T>>(&mut self, filter: &mut Filter<'_, X, M, T, C>) {
+    /// Completes the newest record, in square-root form, by what the updates at its end have learnt. [`predict`](Self::predict)
+    /// does so first; by hand it is needed before [`smooth_on`](Self::smooth_on) alone.
+    pub fn close<X: Over<M>, M, C: Grow<T>>(&mut self, filter: &mut Filter<'_, X, M, T, C>) {
         let (n, len) = (self.states, Self::record_len(self.states));
         if self.count == 0 || !self.square_root {
             return;
@@ -184,25 +185,25 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
         self.go_back(start.time, (&[], &[]), skip, steps, visit)
     }
 
-    /// The same from a smoothed belief that another history has found at the filter's present time, given everything that
-    /// the filter has learnt there and more: states between two rows are smoothed beside the recursion over the rows.
+    /// The same from a smoothed belief that another history has found at the end of the newest record, which must be
+    /// [closed](Self::close): states between two rows are smoothed beside the recursion over the rows.
     ///
     /// # Errors
     /// As [`smooth`](Self::smooth).
-    pub fn smooth_on<X: Over<M>, M, C: Grow<T>>(
+    pub fn smooth_on(
         &mut self,
-        filter: &mut Filter<'_, X, M, T, C>,
+        time: f64,
         from: &Smoothed<T>,
         visit: impl FnMut(usize, &Smoothed<T>),
     ) -> Result<(), StepError> {
-        self.fits(filter)?;
-        self.close(filter);
+        let room = self.room(from.belief.mean.len(), !from.root.is_empty());
+        room.map_err(|fault| StepError { fault, time, step: 0 })?;
         let (n, steps, (_, mut rest)) = (self.states, self.count, self.carve());
         let belief = present(n, &mut rest);
         belief.mean.copy_from_slice(from.belief.mean);
         belief.factor.copy_from_slice(from.belief.factor);
         belief.cov.copy_from_slice(from.belief.cov);
-        self.go_back(filter.time(), (from.shift, from.root), 0, steps, visit)
+        self.go_back(time, (from.shift, from.root), 0, steps, visit)
     }
 
     /// The means alone, by the gains alone (2011 §7, remark ii): `visit` is called as in [`smooth`](Self::smooth).

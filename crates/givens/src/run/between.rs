@@ -7,96 +7,94 @@ use crate::smoother::{History, Smoothed};
 use crate::{Estimates, Row};
 
 /// The states at `times`, in increasing order.
-pub(super) struct Between<'t, 'm, X, M> {
+pub(super) struct Between<'t> {
     times: &'t [f64],
     smoothing: bool,
-    sides: Vec<Side<'m, X, M>>,
+    sides: Vec<Side>,
     /// Of every time that is a row's, the row.
     rows: Vec<Option<usize>>,
     /// One estimate for each time so far.
     pub out: Estimates,
 }
 
-/// A way beside one gap between two rows: over the wanted times, to the later row and its update.
-pub(super) struct Side<'m, X, M> {
-    filter: OwnFilter<'m, X, M>,
+/// The way over one wanted time, from the row before it to the one behind: each has its own, so that no answer depends on
+/// what else is asked.
+struct Side {
     history: History<f64, Vec<f64>>,
+    /// Which of the times.
+    index: usize,
     /// The row at its end.
     row: usize,
-    /// The first of its times, and how many.
-    first: usize,
-    count: usize,
 }
 
-impl<'t, 'm, X: Over<M>, M> Between<'t, 'm, X, M> {
+impl<'t> Between<'t> {
     pub fn new(times: &'t [f64], out: Estimates) -> Self {
         Self { times, smoothing: out.is_smoothed(), sides: Vec::new(), rows: Vec::new(), out }
     }
 
-    /// Predicts to all wanted times before `until`, from a filter that stands at its last finished row, `row` rows after
-    /// the first. Returns the way beside, if it is to go on.
-    pub fn ahead(
+    /// Predicts to all wanted times before that of `next`, from a filter that stands behind its last finished row, and
+    /// for a smoother goes on to that row and its update. Without a next row, to all that are left.
+    pub fn ahead<X: Over<M>, M, H: Observation>(
         &mut self,
-        filter: &OwnFilter<'m, X, M>,
-        until: f64,
-        row: usize,
-        last: Option<f64>,
-    ) -> Result<Option<Side<'m, X, M>>, StepError> {
-        let first = self.out.len();
-        let count = self.times[first..].iter().take_while(|&&t| t < until).count();
-        if count == 0 {
-            return Ok(None);
-        }
-        let n = filter.mean().len();
-        let mut filter = filter.clone();
-        let memory = if self.smoothing { History::<f64, Vec<f64>>::memory_len(n, count + 1) } else { 0 };
-        let mut history = History::new(n, X::Form::SQUARE_ROOT, vec![0.0; memory]);
-        for &t in &self.times[first..first + count] {
-            let at_row = if last == Some(t) { row.checked_sub(1) } else { None };
-            history.predict(&mut filter, t)?;
-            self.rows.push(at_row);
-            push(&filter, &mut self.out.predicted_mean, &mut self.out.predicted_cov);
-            push(&filter, &mut self.out.mean, &mut self.out.cov);
-            if self.smoothing {
-                push(&filter, &mut self.out.filtered_mean, &mut self.out.filtered_cov);
-            }
-            self.out.time.push(t);
-            let d = self.out.measures();
-            self.out.innovation.extend(core::iter::repeat_n(f64::NAN, d));
-            self.out.innovation_cov.extend(core::iter::repeat_n(f64::NAN, d * d));
-            self.out.nis.push(f64::NAN);
-            self.out.nis_dof.push(0);
-            self.out.log_likelihood.push(0.0);
-        }
-        Ok(self.smoothing.then_some(Side { filter, history, row, first, count }))
-    }
-
-    /// Takes the way beside to the row at its end.
-    pub fn arrive<H: Observation>(
-        &mut self,
-        mut side: Side<'m, X, M>,
+        filter: &OwnFilter<X, M>,
         sensors: &H,
-        row: Row,
-        present: &[bool],
+        next: Option<(Row, &[bool])>,
+        finished: &Estimates,
     ) -> Result<(), StepError> {
-        side.history.predict(&mut side.filter, row.time)?;
-        side.filter.set_controls(row.u)?;
-        side.filter.update_present(sensors, row.z, present)?;
-        self.sides.push(side);
+        let n = filter.mean().len();
+        let until = next.map_or(f64::INFINITY, |(row, _)| row.time);
+        while let Some(&t) = self.times.get(self.out.len()).filter(|&&t| t < until) {
+            let last = finished.time.last() == Some(&t);
+            self.rows.push(if last { finished.len().checked_sub(1) } else { None });
+            let mut filter = filter.clone();
+            let memory = if self.smoothing { History::<f64, Vec<f64>>::memory_len(n, 2) } else { 0 };
+            let mut history = History::new(n, X::Form::SQUARE_ROOT, vec![0.0; memory]);
+            history.predict(&mut filter, t)?;
+            self.write(&filter, t);
+            if let (Some((row, present)), true, false) = (next, self.smoothing, last) {
+                history.predict(&mut filter, row.time)?;
+                filter.set_controls(row.u)?;
+                filter.update_present(sensors, row.z, present)?;
+                history.close(&mut filter);
+                self.sides.push(Side { history, index: self.out.len() - 1, row: finished.len() });
+            }
+        }
         Ok(())
     }
 
-    /// The way back has reached a row.
-    pub fn back(&mut self, row: usize, smoothed: &Smoothed<f64>) -> Result<(), StepError> {
+    /// One more estimate: a prediction.
+    fn write<X: Over<M>, M>(&mut self, filter: &OwnFilter<X, M>, t: f64) {
+        let d = self.out.measures();
         let out = &mut self.out;
-        for side in self.sides.iter_mut().filter(|side| side.row == row) {
-            let (first, count) = (side.first, side.count);
-            side.history.smooth_on(&mut side.filter, smoothed, |age, smoothed| {
-                // the last record leads from the last wanted time to the row; the first, from the row before
-                if (1..=count).contains(&age) {
-                    put::<X::Form>(out, first + count - age, &smoothed.belief);
-                }
-            })?;
+        push(filter, &mut out.predicted_mean, &mut out.predicted_cov);
+        push(filter, &mut out.mean, &mut out.cov);
+        if self.smoothing {
+            push(filter, &mut out.filtered_mean, &mut out.filtered_cov);
+        }
+        out.time.push(t);
+        out.innovation.extend(core::iter::repeat_n(f64::NAN, d));
+        out.innovation_cov.extend(core::iter::repeat_n(f64::NAN, d * d));
+        out.nis.push(f64::NAN);
+        out.nis_dof.push(0);
+        out.log_likelihood.push(0.0);
+    }
+
+    /// The way back has reached a row; rows come from the last to the first, as the sides do from the end.
+    pub fn back<F: Form>(
+        &mut self,
+        row: usize,
+        time: f64,
+        smoothed: &Smoothed<f64>,
+    ) -> Result<(), StepError> {
+        while let Some(mut side) = self.sides.pop_if(|side| side.row >= row) {
+            if side.row == row {
+                let (out, index) = (&mut self.out, side.index);
+                side.history.smooth_on(time, smoothed, |age, smoothed| {
+                    if age == 1 {
+                        put::<F>(out, index, &smoothed.belief);
+                    }
+                })?;
+            }
         }
         Ok(())
     }

@@ -23,7 +23,7 @@ pub(super) struct Recorder<'t, 'm, X: Method, M, H> {
     /// Whether the row at work has been predicted, and so recorded.
     predicted: bool,
     /// States at other times.
-    between: Between<'t, 'm, X, M>,
+    between: Between<'t>,
 }
 
 impl<'t, 'm, X: Over<M>, M, H: Observation> Recorder<'t, 'm, X, M, H> {
@@ -36,7 +36,7 @@ impl<'t, 'm, X: Over<M>, M, H: Observation> Recorder<'t, 'm, X, M, H> {
         prior: &Gaussian,
         goal: Goal,
         rows: usize,
-        between: Between<'t, 'm, X, M>,
+        between: Between<'t>,
     ) -> Result<Self, StepError> {
         let sizes = method.sizes(model).map_err(|fault| StepError { fault, time: t0, step: 0 })?;
         let n = sizes.states;
@@ -81,8 +81,10 @@ impl<'t, 'm, X: Over<M>, M, H: Observation> Recorder<'t, 'm, X, M, H> {
         self.predicted = false;
         // a control holds from its row to the next, the first one also before
         self.filter.set_controls(before.unwrap_or(row).u)?;
-        let last = out.time.last().copied();
-        let side = self.between.ahead(&self.filter, row.time, out.len(), last)?;
+        for (there, z) in self.present.iter_mut().zip(row.z) {
+            *there = !z.is_nan();
+        }
+        self.between.ahead(&self.filter, self.sensors, Some((row, &self.present)), out)?;
         match &mut self.point {
             Some(point) => point.predict(&mut self.filter, row.time)?,
             None => self.history.predict(&mut self.filter, row.time)?,
@@ -90,12 +92,6 @@ impl<'t, 'm, X: Over<M>, M, H: Observation> Recorder<'t, 'm, X, M, H> {
         self.predicted = true;
         push(&self.filter, &mut out.predicted_mean, &mut out.predicted_cov);
         self.filter.set_controls(row.u)?;
-        for (there, z) in self.present.iter_mut().zip(row.z) {
-            *there = !z.is_nan();
-        }
-        if let Some(side) = side {
-            self.between.arrive(side, self.sensors, row, &self.present)?;
-        }
         self.filter.update_present(self.sensors, row.z, &self.present)?;
         let waiting = matches!(self.goal, Goal::Point(_)) && self.point.is_none();
         match &mut self.point {
@@ -169,7 +165,8 @@ impl<'t, 'm, X: Over<M>, M, H: Observation> Recorder<'t, 'm, X, M, H> {
         let (mut wrong, between) = (None, &mut self.between);
         let put = |age: usize, smoothed: &Smoothed<f64>| {
             put::<X::Form>(out, last - age, &smoothed.belief);
-            wrong = wrong.or(between.back(last - age, smoothed).err());
+            let row = last - age;
+            wrong = wrong.or(between.back::<X::Form>(row, out.time[row], smoothed).err());
         };
         let start = Prior { time, mean: &self.last.0, factor: &self.last.1, cov: &self.last.2 };
         if failed {
@@ -236,9 +233,8 @@ pub(super) fn record<'a, X: Over<M>, M, H: Observation>(
     }
     out.truncate(out.len());
     if outcome.failure.is_none() {
-        let (rows, last) = (out.len(), out.time.last().copied());
-        let beyond = recorder.between.ahead(&recorder.filter, f64::INFINITY, rows, last);
-        outcome.failure = beyond.err().map(|error| (rows.saturating_sub(1), error));
+        let beyond = recorder.between.ahead(&recorder.filter, sensors, None, out);
+        outcome.failure = beyond.err().map(|error| (out.len().saturating_sub(1), error));
     }
     if let Err(error) = recorder.finish(out, outcome.failure.is_some()) {
         // a smoothed covariance that does not exist: the filtered rows are no answer to the question. The record that

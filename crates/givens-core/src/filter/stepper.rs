@@ -7,6 +7,7 @@ use super::methods::Over;
 use super::predict::{Backward, TimeUpdate};
 use super::start::{Layout, Sizes, countable};
 use super::update::Learnt;
+use crate::model::At;
 use crate::ode::Work;
 use crate::rule::Rule;
 use crate::scalar::Real;
@@ -181,7 +182,10 @@ impl<'m, X: Over<M>, M, T: Real, B: AsMut<[T]>> Filter<'m, X, M, T, B> {
         ] {
             to.iter_mut().zip(from).for_each(|(to, &x)| *to = T::of(x));
         }
-        parts::<T, X::Form>(&layout, memory.as_mut()).learnt.reset(n);
+        let Parts { mut learnt, u, p, belief, scratch, .. } = parts::<T, X::Form>(&layout, memory.as_mut());
+        learnt.reset(n);
+        let at = At { t: T::of(prior.time), dt: T::zero(), u, p };
+        time_update.probe(model, &at, belief.mean, scratch).map_err(fail)?;
         let (time, scalar, controlled) = (prior.time, PhantomData, sizes.controls == 0);
         let work = Work::default();
         Ok(Self {

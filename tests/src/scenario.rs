@@ -110,7 +110,7 @@ impl Scenario {
         goal: Goal,
     ) -> Outcome {
         let transition = self.model.dynamics.discrete().expect("the scenarios are discrete");
-        choice.run(transition, &self.model.observation, rows, self.start, &self.prior, goal)
+        choice.run(transition, &self.model.observation, rows, self.start, &self.prior, goal, &[])
     }
 
     /// The rows of the data.

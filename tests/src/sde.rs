@@ -120,7 +120,7 @@ impl Continuous {
     /// A method over all rows.
     #[must_use]
     pub fn run(&self, choice: &Choice, goal: Goal) -> Outcome {
-        choice.run_continuous(&self.model, &self.sensor, self.rows(), 0.0, &self.prior(), goal)
+        choice.run_continuous(&self.model, &self.sensor, self.rows(), 0.0, &self.prior(), goal, &[])
     }
 
     /// What the linear problem's filter and smoother should find.

@@ -94,7 +94,7 @@ fn smoothing_allocations<X: Over<CoordinatedTurn>>(method: X) -> usize {
         other.update(&radar, &[x.hypot(y), y.atan2(x)]).unwrap();
         point.update(&other).unwrap();
         let mut visits = 0;
-        lag.smooth(&filter, 3, |_, belief| visits += usize::from(belief.mean[0].is_finite())).unwrap();
+        lag.smooth(&filter, 3, |_, now| visits += usize::from(now.belief.mean[0].is_finite())).unwrap();
         assert_eq!(visits, 1 + lag.len());
         lag.smooth_means(&filter, 3, |_, mean| assert!(mean[0].is_finite())).unwrap();
     }

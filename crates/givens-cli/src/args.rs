@@ -27,6 +27,7 @@ pub enum Command {
     #[command(after_help = "Examples:
   givens filter turn.toml radar.csv -o track.csv --plot track.svg
   givens filter turn.toml radar.csv --method ukf --set kappa=1 --format jsonl
+  givens filter turn.toml radar.csv --at every:0.5    also between the rows
   givens filter turn.toml - --truth truth.csv < radar.csv > track.csv")]
     Filter(FilterArgs),
     /// Estimate each state from all measurements, before and after it
@@ -40,7 +41,7 @@ pub enum Command {
   givens simulate turn.toml --steps 100 --seed 1 -o radar.csv --states truth.csv
   givens simulate turn.toml --until 60 --every 0.5 --runs 9 --seed 7 -o runs.csv
   givens simulate turn.toml --times radar.csv --seed 1    the rows of a table
-  givens simulate flight.toml --until 60 --every 2 --substeps 32 --seed 1    of a continuous model")]
+  givens simulate swing.toml --until 9 --every 0.3 --substeps 32 --seed 1")]
     Simulate(SimulateArgs),
     /// Run several methods over the same data, side by side
     #[command(after_help = "Examples:
@@ -115,6 +116,9 @@ pub struct FilterArgs {
     /// Where to write; standard output without it
     #[arg(long, short, value_name = "FILE")]
     pub output: Option<PathBuf>,
+    /// The answers at these times in place of the rows: `T,…`, or `every:DT` from the initial belief to the last row
+    #[arg(long, value_name = "T,…|every:DT", allow_hyphen_values = true)]
+    pub at: Option<String>,
     /// How to write; from the name of the output, else csv
     #[arg(long, value_enum)]
     pub format: Option<FormatArg>,
@@ -128,10 +132,10 @@ pub struct SmoothArgs {
     #[command(flatten)]
     pub run: FilterArgs,
     /// Smooth each row with the next ROWS rows only
-    #[arg(long, value_name = "ROWS", value_parser = whole, allow_negative_numbers = true, conflicts_with = "point")]
+    #[arg(long, value_name = "ROWS", value_parser = whole, allow_negative_numbers = true, conflicts_with_all = ["point", "at"])]
     pub lag: Option<usize>,
     /// Estimate the state at this one time, a line for each row from it on
-    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    #[arg(long, value_name = "T", allow_hyphen_values = true, conflicts_with = "at")]
     pub point: Option<String>,
 }
 

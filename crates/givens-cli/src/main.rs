@@ -6,6 +6,7 @@ mod commands;
 mod failure;
 mod figure;
 mod files;
+mod instants;
 mod message;
 mod method;
 mod paths;

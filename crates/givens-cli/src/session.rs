@@ -1,6 +1,7 @@
 //! A plan carried out: the method over every track.
 
 use crate::failure;
+use crate::instants::Instants;
 use crate::message::count;
 use crate::plan::Plan;
 use crate::progress::Progress;
@@ -17,16 +18,20 @@ pub struct Session {
     pub failures: Vec<String>,
     /// What each track was run for.
     goals: Vec<Goal>,
+    /// The answers at the times of `--at`, one for each track; empty without it.
+    pub at: Vec<Answer>,
 }
 
 impl Session {
     /// Runs `choice` over all tracks; a track that fails does not stop the others.
-    pub fn run(plan: &Plan, choice: &Choice, goals: &[Goal]) -> Self {
+    pub fn run(plan: &Plan, choice: &Choice, goals: &[Goal], at: Option<&Instants>) -> Self {
         let rows = plan.tracks.tracks.iter().map(|track| track.rows.len()).sum();
         let progress = Progress::new(rows);
-        let (mut answers, mut failures) = (Vec::new(), Vec::new());
+        let (mut answers, mut failures, mut there) = (Vec::new(), Vec::new(), Vec::new());
         let empty = vec![f64::NAN; plan.model.measures()];
-        for ((track, begin), goal) in plan.tracks.tracks.iter().zip(&plan.beginnings).zip(goals) {
+        let tracks = plan.tracks.tracks.iter().zip(&plan.beginnings).zip(goals).enumerate();
+        for (i, ((track, begin), goal)) in tracks {
+            let times = at.map_or(Vec::new(), |at| at.of(i));
             let rows = track.rows[begin.row..].iter().enumerate().map(|(k, row)| {
                 // what `start` has read is not used again
                 let z = if begin.started && k == 0 { &empty } else { &row.z };
@@ -35,8 +40,10 @@ impl Session {
             let rows = progress.counting(rows);
             let (sensors, t0, prior) = (&plan.model.observation, begin.time, &begin.prior);
             let outcome = match &plan.model.dynamics {
-                Dynamics::Discrete(model) => choice.run(model, sensors, rows, t0, prior, *goal),
-                Dynamics::Continuous(model) => choice.run_continuous(model, sensors, rows, t0, prior, *goal),
+                Dynamics::Discrete(model) => choice.run(model, sensors, rows, t0, prior, *goal, &times),
+                Dynamics::Continuous(model) => {
+                    choice.run_continuous(model, sensors, rows, t0, prior, *goal, &times)
+                }
             };
             if let Some((row, error)) = &outcome.failure {
                 let at = &track.rows[begin.row + row];
@@ -52,6 +59,9 @@ impl Session {
                 let of = track.id.as_ref().map_or(String::new(), |id| format!(" of track {id}"));
                 failures.push(format!("{told}\n  {finished}{of} finished before"));
             }
+            if at.is_some() {
+                there.push(Answer { estimates: outcome.at, ..Answer::default() });
+            }
             let finished = outcome.estimates;
             let mut row = begin.row;
             let from_first = matches!(goal, Goal::Point(_));
@@ -64,7 +74,7 @@ impl Session {
             answers.push(Answer { estimates: finished, row, started, from_first });
         }
         progress.finish();
-        Self { answers, failures, goals: goals.to_vec() }
+        Self { answers, failures, goals: goals.to_vec(), at: there }
     }
 
     /// All estimates.

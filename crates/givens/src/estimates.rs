@@ -56,6 +56,27 @@ impl Estimates {
         self.innovation_cov.truncate(rows * d * d);
     }
 
+    /// Writes row `from` of other estimates of the same trajectory over row `row`.
+    pub(crate) fn copy_row(&mut self, row: usize, other: &Self, from: usize) {
+        let (n, d) = (self.states, self.measures);
+        let copy = |to: &mut Vec<f64>, source: &[f64], len: usize| {
+            if !to.is_empty() {
+                to[row * len..(row + 1) * len].copy_from_slice(&source[from * len..(from + 1) * len]);
+            }
+        };
+        copy(&mut self.mean, &other.mean, n);
+        copy(&mut self.cov, &other.cov, n * n);
+        copy(&mut self.filtered_mean, &other.filtered_mean, n);
+        copy(&mut self.filtered_cov, &other.filtered_cov, n * n);
+        copy(&mut self.predicted_mean, &other.predicted_mean, n);
+        copy(&mut self.predicted_cov, &other.predicted_cov, n * n);
+        copy(&mut self.innovation, &other.innovation, d);
+        copy(&mut self.innovation_cov, &other.innovation_cov, d * d);
+        copy(&mut self.nis, &other.nis, 1);
+        copy(&mut self.log_likelihood, &other.log_likelihood, 1);
+        self.nis_dof[row] = other.nis_dof[from];
+    }
+
     /// Number of rows.
     pub fn len(&self) -> usize {
         self.time.len()

@@ -32,4 +32,4 @@ pub mod simulate;
 
 pub use data::{Data, DataError, Row};
 pub use estimates::Estimates;
-pub use run::{Failure, Goal, Outcome, filter, run, smooth};
+pub use run::{Failure, Goal, Outcome, filter, run, run_at, smooth};

@@ -21,7 +21,7 @@ fn run(problem: &Continuous, choice: &Choice, goal: Goal) -> Estimates {
 
 /// A run, unless a rule with negative weights has made of the covariance of a state given the next one none, which its
 /// noise, of fewer columns than states, does not lift: in square-root form that is an error.
-fn run_if_any(problem: &Continuous, choice: &Choice, goal: Goal) -> Option<Estimates> {
+pub fn run_if_any(problem: &Continuous, choice: &Choice, goal: Goal) -> Option<Estimates> {
     let negative = matches!(choice.rule, RuleName::Unscented | RuleName::Cubature5);
     let outcome = problem.run(choice, goal);
     let conditional = |fault| matches!(fault, Fault::NotPositive { matrix: Matrix::Conditional, .. });
@@ -49,13 +49,13 @@ fn error(est: &Estimates, answer: &Answer) -> f64 {
 }
 
 /// The same method with a tolerance far below what the tests ask, where its solver has one.
-fn tight(choice: &Choice, rtol: f64) -> Choice {
+pub fn tight(choice: &Choice, rtol: f64) -> Choice {
     let mut tight = *choice;
     tight.integrator.tolerance = Tolerance { rtol, atol: 0.0 };
     tight
 }
 
-fn adapts(choice: &Choice) -> bool {
+pub fn adapts(choice: &Choice) -> bool {
     choice.time_update.solves() && choice.integrator.solver.adaptive()
 }
 
@@ -234,7 +234,7 @@ fn a_method_of_the_other_kind_fails_and_names_its_counterpart() {
     }
     for (name, choice) in continuous_choices(2) {
         let (model, sensor) = (&discrete.model, &discrete.sensor);
-        let outcome = choice.run(model, sensor, discrete.rows(), 0.0, &discrete.prior(), Goal::Filter);
+        let outcome = choice.run(model, sensor, discrete.rows(), 0.0, &discrete.prior(), Goal::Filter, &[]);
         let (row, error) = outcome.failure.unwrap();
         assert!(row == 0 && mismatch(error.fault), "{name}: {error}");
     }

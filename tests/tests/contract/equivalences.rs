@@ -89,7 +89,7 @@ proptest! {
         );
         for (name, choice) in choices(n) {
             let stacked = run(&choice, &problem, Goal::Interval);
-            let tuple = choice.run(&problem.model, &both, problem.rows(), 0.0, &problem.prior(), Goal::Interval);
+            let tuple = choice.run(&problem.model, &both, problem.rows(), 0.0, &problem.prior(), Goal::Interval, &[]);
             let apart = apart(&tuple.into_result().unwrap(), &stacked);
             prop_assert!(apart < 1e-12, "{name}: {apart:e}");
         }
@@ -140,7 +140,7 @@ fn whole_turns_of_an_angle_make_no_difference() {
     }
     for (name, choice) in choices(4) {
         let est = [&problem, &turned].map(|of| {
-            let outcome = choice.run(&of.model, &compass, of.rows(), 0.0, &of.prior(), Goal::Interval);
+            let outcome = choice.run(&of.model, &compass, of.rows(), 0.0, &of.prior(), Goal::Interval, &[]);
             outcome.into_result().unwrap()
         });
         let apart = apart(&est[0], &est[1]);

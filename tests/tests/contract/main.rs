@@ -3,6 +3,7 @@
 
 #![allow(clippy::needless_update)] // some methods have no option beside `update`
 
+mod any_time;
 mod continuous;
 mod continuous_types;
 mod distinct;
@@ -25,7 +26,8 @@ use givens_tests::{cov_error, mean_error};
 
 /// Runs a method over a problem.
 fn run(choice: &Choice, problem: &Problem, goal: Goal) -> Estimates {
-    let outcome = choice.run(&problem.model, &problem.sensor, problem.rows(), 0.0, &problem.prior(), goal);
+    let outcome =
+        choice.run(&problem.model, &problem.sensor, problem.rows(), 0.0, &problem.prior(), goal, &[]);
     outcome.into_result().unwrap_or_else(|failure| panic!("{choice:?}: {failure}"))
 }
 

@@ -93,7 +93,7 @@ proptest! {
         let rows = || [Row { time: 0.0, z: &z, u: &[] }].into_iter();
         for (name, choice) in choices(n) {
             let est = [&problem, &other].map(|of| {
-                choice.run(&of.model, &of.sensor, rows(), 0.0, &of.prior(), Goal::Filter).into_result().unwrap()
+                choice.run(&of.model, &of.sensor, rows(), 0.0, &of.prior(), Goal::Filter, &[]).into_result().unwrap()
             });
             let change = change(&est[0], &est[1], &order);
             prop_assert!(change < 1e-11, "{name}: {change:e}");

@@ -1,8 +1,8 @@
 //! Stepping a filter by hand: the same as a run, for every type of method, and with the smoothers of the core.
 
 use givens::filter::{
-    Belief, Block, Cdkf, Ckf, Ckf5, Ekf, Filter, Form, Over, Prior, Qkf, Sizes, SrCdkf, SrCkf, SrCkf5, SrEkf,
-    SrQkf, SrUkf, Ukf,
+    Block, Cdkf, Ckf, Ckf5, Ekf, Filter, Form, Over, Prior, Qkf, Sizes, SrCdkf, SrCkf, SrCkf5, SrEkf, SrQkf,
+    SrUkf, Ukf,
 };
 use givens::registry::{ENTRIES, Kind, resolve};
 use givens::rule::Rule;
@@ -104,7 +104,8 @@ fn smooths_like_the_registry<X: Over<Motion>>(name: &str, method: X) {
     assert_eq!(history.len(), rows);
     let close = |x: &[f64], y: &[f64]| x.iter().zip(y).all(|(x, y)| (x - y).abs() < 1e-11);
     history
-        .smooth(&filter, rows, |age, belief: &Belief<f64>| {
+        .smooth(&filter, rows, |age, smoothed| {
+            let belief = &smoothed.belief;
             if age < rows {
                 assert_eq!(belief.mean, est.mean(rows - 1 - age), "{name}, {age} rows ago");
             } else {

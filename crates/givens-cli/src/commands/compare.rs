@@ -98,7 +98,7 @@ fn header(plan: &Plan) -> Vec<String> {
 fn line(plan: &Plan, name: &str, choice: &Choice) -> (Vec<String>, Vec<String>) {
     let goals = |goal: Goal| vec![goal; plan.tracks.tracks.len()];
     let begun = Instant::now();
-    let filtered = Session::run(plan, choice, &goals(Goal::Filter));
+    let filtered = Session::run(plan, choice, &goals(Goal::Filter), None);
     let seconds = begun.elapsed().as_secs_f64();
     let rows: usize = filtered.estimates().map(Estimates::len).sum();
     let consistency = Consistency::of(filtered.estimates());
@@ -120,7 +120,7 @@ fn line(plan: &Plan, name: &str, choice: &Choice) -> (Vec<String>, Vec<String>) 
     ];
     let mut failures = filtered.failures.clone();
     if let Some(truth) = &plan.truth {
-        let smoothed = Session::run(plan, choice, &goals(Goal::Interval));
+        let smoothed = Session::run(plan, choice, &goals(Goal::Interval), None);
         let (f, s) = (filtered.accuracy(plan), smoothed.accuracy(plan));
         if filtered.failures.is_empty() {
             failures.extend(smoothed.failures);

@@ -2,6 +2,7 @@
 
 use crate::args::{FilterArgs, FormatArg, SmoothArgs};
 use crate::files::{self, Sink};
+use crate::instants::Instants;
 use crate::message::Stop;
 use crate::plan::Plan;
 use crate::session::Session;
@@ -35,11 +36,15 @@ fn run(args: &FilterArgs, goals: impl Fn(&Plan) -> Result<Vec<Goal>, Stop>) -> R
     )?;
     let plan = Plan::new(args)?;
     let goals = goals(&plan)?;
+    let at = args.at.as_deref().map(|text| Instants::read(text, &plan)).transpose()?;
     let sink = Sink::open(output)?;
     let canvases = args.plots.iter().map(|path| Ok((path, Sink::open(Some(path))?)));
     let canvases = canvases.collect::<Result<Vec<_>, Stop>>()?;
-    let session = Session::run(&plan, &plan.choice, &goals);
-    sink.write(|out| write_answers(out, format, &plan.model, &plan.tracks, &session.answers))?;
+    let session = Session::run(&plan, &plan.choice, &goals, at.as_ref());
+    sink.write(|out| match &at {
+        Some(at) => write_answers(out, format, &plan.model, &at.tracks(&plan), &session.at),
+        None => write_answers(out, format, &plan.model, &plan.tracks, &session.answers),
+    })?;
     for (path, canvas) in canvases {
         let picture = figure::draw(path, &plan, &session)?;
         canvas.write(|out| out.write_all(&picture))?;

@@ -3,12 +3,13 @@
 
 #[path = "../common/mod.rs"]
 mod common;
+mod continuous;
 mod files;
 mod models;
 mod options;
 mod tables;
 
-use common::models::{DATA, MODEL, TRUTH, WALK};
+use common::models::{DATA, MODEL, OSCILLATOR, TRUTH, WALK};
 use common::{Folder, Run};
 use core::fmt::Write;
 
@@ -38,8 +39,9 @@ fn check(group: &str, cases: &[Case]) {
 
 fn folder(name: &str, (file, from, to): &Slip) -> Folder {
     let folder = Folder::new(name);
-    for (name, text) in [("model.toml", MODEL), ("data.csv", DATA), ("truth.csv", TRUTH), ("walk.toml", WALK)]
-    {
+    let discrete = [("model.toml", MODEL), ("data.csv", DATA), ("truth.csv", TRUTH), ("walk.toml", WALK)];
+    let continuous = [("osc.toml", OSCILLATOR), ("osc.csv", "time,z\n1,0.4\n2,0.1\n")];
+    for (name, text) in discrete.into_iter().chain(continuous) {
         let changed = name == *file && !(from.is_empty() && to.is_empty());
         assert!(!changed || text.contains(from), "{file} does not hold `{from}`");
         // all of a file is replaced where nothing is named
@@ -67,5 +69,7 @@ fn the_good_files_are_good() {
     let folder = folder("good", &NONE);
     folder.run(FILTER).good();
     folder.run("smooth model.toml data.csv --truth truth.csv --plot track.svg").good();
-    assert_eq!(folder.files(), ["data.csv", "model.toml", "out.csv", "track.svg", "truth.csv", "walk.toml"]);
+    folder.run("filter osc.toml osc.csv -o osc_out.csv").good();
+    let files = "data.csv model.toml osc.csv osc.toml osc_out.csv out.csv track.svg truth.csv walk.toml";
+    assert_eq!(folder.files().join(" "), files);
 }

@@ -17,7 +17,11 @@ fn wrong_methods_and_options() {
                 "continuous",
                 NONE,
                 "filter model.toml data.csv -o out.csv --method cd-ckf",
-                &["there is no method `cd-ckf`", "discrete-time methods"],
+                &[
+                    "--method cd-ckf: `cd-ckf` is a continuous-time method",
+                    "the model is discrete",
+                    "is `ckf`",
+                ],
             ),
             (
                 "unread",

@@ -27,7 +27,7 @@ fn one_track_that_fails_leaves_the_others() {
     let found = folder.run("filter walk.toml data.csv -o out.csv");
     assert_eq!((found.code, found.stdout.as_str()), (1, ""));
     let words = "data.csv:6: track b, t = 3, step 4: the filter failed: the transition of `x` is not a finite number; \
-                 look for a division by zero, the root of a negative number, or an estimate that runs away\n  2 rows of track b finished before";
+                 look for a division by zero, the root of a negative number, or an estimate that runs away\n  the step set out from x = 65.294\n  2 rows of track b finished before";
     assert!(found.stderr.contains(words), "{}", found.stderr);
     let cells = super::common::cells(&folder.read("out.csv"));
     let keys: Vec<String> = cells[1..].iter().map(|row| row[..2].join("")).collect();
@@ -123,6 +123,7 @@ fn a_derivative_that_does_not_exist_is_told_with_a_method_that_needs_none() {
 fn a_huge_number_is_written_with_an_exponent() {
     let folder = folder("huge");
     folder.write("data.csv", "time,z\n1,1e150\n2,1\n");
-    let found = folder.run("filter walk.toml data.csv").good();
+    // by a method without points, which would coincide out there
+    let found = folder.run("filter walk.toml data.csv --method ekf").good();
     assert!(found.stderr.contains("mean NIS 4.306e299 per") && found.stderr.len() < 300, "{}", found.stderr);
 }

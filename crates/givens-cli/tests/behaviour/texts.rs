@@ -1,6 +1,7 @@
 //! What the command tells about itself and about models.
 
 use super::common::Folder;
+use super::common::models::OSCILLATOR;
 use super::{WALK, folder};
 use givens::registry::{ENTRIES, OPTIONS};
 
@@ -109,7 +110,7 @@ fn completions_are_written_for_each_shell() {
 #[test]
 fn the_examples_of_the_help_run() {
     let folder = Folder::new("examples");
-    folder.write("turn.toml", super::MODEL);
+    folder.write("turn.toml", super::MODEL).write("swing.toml", OSCILLATOR);
     for command in ["simulate", "filter", "smooth", "compare", "check"] {
         let help = folder.run(&format!("{command} --help")).good().stdout;
         let examples = help.lines().skip_while(|line| !line.starts_with("Example")).skip(1);

@@ -69,3 +69,23 @@ name = "level"
 measures = { z = "x" }
 std = [1]
 "#;
+
+/// An oscillator that is damped the more, the farther it is out, and its position.
+pub const OSCILLATOR: &str = r#"[state]
+names = ["x", "v"]
+time = 0
+mean = [1, 0]
+std = [0.3, 0.3]
+
+[parameters]
+mu = 2
+
+[dynamics]
+drift = { x = "v", v = "mu*(1 - x^2)*v - x" }
+diffusion = { v = "0.2" }
+
+[[sensor]]
+name = "eye"
+measures = { z = "x" }
+std = [0.1]
+"#;

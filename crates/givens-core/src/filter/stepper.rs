@@ -7,6 +7,7 @@ use super::methods::Over;
 use super::predict::{Backward, TimeUpdate};
 use super::start::{Layout, Sizes, countable};
 use super::update::Learnt;
+use crate::model::At;
 use crate::ode::Work;
 use crate::rule::Rule;
 use crate::scalar::Real;
@@ -26,7 +27,7 @@ use core::marker::PhantomData;
 /// assert!((f.mean()[0] - 1300.0).abs() < 20.0 && f.innovation().nis < 9.2);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct Filter<'m, X, M, T, B> {
     pub(super) method: X,
     pub(super) model: &'m M,
@@ -42,6 +43,12 @@ pub struct Filter<'m, X, M, T, B> {
     pub(super) moved: bool,
     pub(super) memory: B,
     scalar: PhantomData<T>,
+}
+
+impl<X: Clone, M, T, B: Clone> Clone for Filter<'_, X, M, T, B> {
+    fn clone(&self) -> Self {
+        Self { method: self.method.clone(), memory: self.memory.clone(), ..*self }
+    }
 }
 
 /// The arrays of a filter.
@@ -175,7 +182,10 @@ impl<'m, X: Over<M>, M, T: Real, B: AsMut<[T]>> Filter<'m, X, M, T, B> {
         ] {
             to.iter_mut().zip(from).for_each(|(to, &x)| *to = T::of(x));
         }
-        parts::<T, X::Form>(&layout, memory.as_mut()).learnt.reset(n);
+        let Parts { mut learnt, u, p, belief, scratch, .. } = parts::<T, X::Form>(&layout, memory.as_mut());
+        learnt.reset(n);
+        let at = At { t: T::of(prior.time), dt: T::zero(), u, p };
+        time_update.probe(model, &at, belief.mean, scratch).map_err(fail)?;
         let (time, scalar, controlled) = (prior.time, PhantomData, sizes.controls == 0);
         let work = Work::default();
         Ok(Self {

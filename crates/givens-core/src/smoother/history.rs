@@ -120,8 +120,9 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
         Ok(())
     }
 
-    /// Completes the newest record, in square-root form, by what the updates at its end have learnt.
-    fn close<X: Over<M>, M, C: Grow<T>>(&mut self, filter: &mut Filter<'_, X, M, T, C>) {
+    /// Completes the newest record, in square-root form, by what the updates at its end have learnt. [`predict`](Self::predict)
+    /// does so first; by hand it is needed before [`smooth_on`](Self::smooth_on) alone.
+    pub fn close<X: Over<M>, M, C: Grow<T>>(&mut self, filter: &mut Filter<'_, X, M, T, C>) {
         let (n, len) = (self.states, Self::record_len(self.states));
         if self.count == 0 || !self.square_root {
             return;
@@ -150,7 +151,7 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
         &mut self,
         filter: &Filter<'_, X, M, T, C>,
         steps: usize,
-        visit: impl FnMut(usize, &Belief<T>),
+        visit: impl FnMut(usize, &Smoothed<T>),
     ) -> Result<(), StepError> {
         self.fits(filter)?;
         let (n, (_, mut rest)) = (self.states, self.carve());
@@ -171,7 +172,7 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
         start: Prior,
         skip: usize,
         steps: usize,
-        visit: impl FnMut(usize, &Belief<T>),
+        visit: impl FnMut(usize, &Smoothed<T>),
     ) -> Result<(), StepError> {
         let room = self.room(start.mean.len(), F::SQUARE_ROOT);
         room.map_err(|fault| StepError { fault, time: start.time, step: 0 })?;
@@ -182,6 +183,27 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
         put(belief.factor, start.factor);
         put(belief.cov, start.cov);
         self.go_back(start.time, (&[], &[]), skip, steps, visit)
+    }
+
+    /// The same from a smoothed belief that another history has found at the end of the newest record, which must be
+    /// [closed](Self::close): states between two rows are smoothed beside the recursion over the rows.
+    ///
+    /// # Errors
+    /// As [`smooth`](Self::smooth).
+    pub fn smooth_on(
+        &mut self,
+        time: f64,
+        from: &Smoothed<T>,
+        visit: impl FnMut(usize, &Smoothed<T>),
+    ) -> Result<(), StepError> {
+        let room = self.room(from.belief.mean.len(), !from.root.is_empty());
+        room.map_err(|fault| StepError { fault, time, step: 0 })?;
+        let (n, steps, (_, mut rest)) = (self.states, self.count, self.carve());
+        let belief = present(n, &mut rest);
+        belief.mean.copy_from_slice(from.belief.mean);
+        belief.factor.copy_from_slice(from.belief.factor);
+        belief.cov.copy_from_slice(from.belief.cov);
+        self.go_back(time, (from.shift, from.root), 0, steps, visit)
     }
 
     /// The means alone, by the gains alone (2011 §7, remark ii): `visit` is called as in [`smooth`](Self::smooth).
@@ -235,36 +257,60 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
         (shift, turn): (&[T], &[T]),
         skip: usize,
         steps: usize,
-        mut visit: impl FnMut(usize, &Belief<T>),
+        mut visit: impl FnMut(usize, &Smoothed<T>),
     ) -> Result<(), StepError> {
         let (n, square_root, capacity) = (self.states, self.square_root, self.capacity);
         let held = self.count - skip.min(self.count);
         let newest = self.oldest + held;
         let (records, mut rest) = self.carve();
-        let mut belief = present(n, &mut rest);
-        visit(0, &belief);
+        let belief = present(n, &mut rest);
         let record = |age: usize| {
             let len = Self::record_len(n);
             &records[(newest - age) % capacity * len..][..len]
         };
         if square_root {
-            let mut coordinates = Coordinates::start(n, shift, turn, &mut rest);
+            let mut coordinates = Coordinates::start(n, &[], &[], &mut rest);
+            let mut smoothed = Smoothed { belief, shift: coordinates.mean, root: coordinates.root };
+            visit(0, &smoothed);
+            if !turn.is_empty() {
+                smoothed.shift.copy_from_slice(shift);
+                smoothed.root.copy_from_slice(turn);
+            }
             for age in 1..=steps.min(held) {
                 let record = Rotated::of(record(age), n);
+                coordinates = Coordinates { mean: smoothed.shift, root: smoothed.root };
                 coordinates.back(&record, rest);
-                coordinates.write(&record, &mut belief);
-                visit(age, &belief);
+                coordinates.write(&record, &mut smoothed.belief);
+                (smoothed.shift, smoothed.root) = (coordinates.mean, coordinates.root);
+                visit(age, &smoothed);
             }
             return Ok(());
         }
+        let mut smoothed = Smoothed { belief, shift: &mut [], root: &mut [] };
+        visit(0, &smoothed);
         for age in 1..=steps.min(held) {
             let before = if age < held { &record(age + 1)[2 * n + n * n..][..n * n] } else { &[] };
-            step_back(&Passage::of(record(age), before, n), &mut belief, rest)
-                .map_err(|fault| StepError { fault, time, step: newest - age })?;
-            visit(age, &belief);
+            let passage = Passage::of(record(age), before, n);
+            step_back(&passage, &mut smoothed.belief, rest).map_err(|fault| StepError {
+                fault,
+                time,
+                step: newest - age,
+            })?;
+            visit(age, &smoothed);
         }
         Ok(())
     }
+}
+
+/// A belief on its way back.
+#[derive(Debug)]
+pub struct Smoothed<'a, T> {
+    /// mˢ, Sˢ and, in covariance form, Pˢ.
+    pub belief: Belief<'a, T>,
+    /// Square-root form: x = m + S u with m and S as filtered, and the mean of u, length n. Empty in covariance form.
+    pub shift: &'a mut [T],
+    /// A root of the covariance of u, n × n. Empty in covariance form.
+    pub root: &'a mut [T],
 }
 
 /// The belief on its way back.

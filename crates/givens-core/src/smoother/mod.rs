@@ -9,4 +9,4 @@ mod history;
 mod rotated;
 
 pub use fixed_point::FixedPoint;
-pub use history::History;
+pub use history::{History, Smoothed};

@@ -9,7 +9,7 @@ use crate::filter::predict::{EulerMaruyama, ItoTaylor, LevelSet, MomentOde, OneT
 use crate::filter::{Covariance, Fault, Form, Gaussian, Over, SquareRoot, StepError};
 use crate::model::{Observation, Sde, Transition};
 use crate::rule::{Cubature3, Cubature5, Rule, RuleError, Taylor};
-use crate::run::{Goal, Outcome, run};
+use crate::run::{Goal, Outcome, run_at};
 
 impl Choice {
     /// What is wrong with the options for a model of `states` states, if anything.
@@ -64,7 +64,7 @@ impl Choice {
         }
     }
 
-    /// Runs a discrete method over a trajectory; see [`run()`]. A continuous one fails at the first row.
+    /// Runs a discrete method over a trajectory, `at` these times besides; see [`run_at()`]. A continuous one fails at the first row.
     pub fn run<'a, M: Transition, H: Observation>(
         &self,
         model: &M,
@@ -73,15 +73,16 @@ impl Choice {
         t0: f64,
         prior: &Gaussian,
         goal: Goal,
+        at: &[f64],
     ) -> Outcome {
-        let span = Span { model, sensors, rows, t0, prior, goal };
+        let span = Span { model, sensors, rows, t0, prior, goal, at };
         match self.time_update {
             TimeName::Transition => self.over(OneTransition, span),
             _ => span.refused(NOT_CONTINUOUS),
         }
     }
 
-    /// Runs a continuous method over a trajectory; see [`run()`]. A discrete one fails at the first row.
+    /// Runs a continuous method over a trajectory, `at` these times besides; see [`run_at()`]. A discrete one fails at the first row.
     pub fn run_continuous<'a, M: Sde, H: Observation>(
         &self,
         model: &M,
@@ -90,8 +91,9 @@ impl Choice {
         t0: f64,
         prior: &Gaussian,
         goal: Goal,
+        at: &[f64],
     ) -> Outcome {
-        let span = Span { model, sensors, rows, t0, prior, goal };
+        let span = Span { model, sensors, rows, t0, prior, goal, at };
         match self.time() {
             None => span.refused(NOT_DISCRETE),
             Some(AnyTime::LevelSet(_)) if self.form == FormName::Covariance => {
@@ -146,6 +148,7 @@ struct Span<'s, M, H, I> {
     t0: f64,
     prior: &'s Gaussian,
     goal: Goal,
+    at: &'s [f64],
 }
 
 impl<'a, M, H: Observation, I: Iterator<Item = Row<'a>> + Clone> Span<'_, M, H, I> {
@@ -153,7 +156,7 @@ impl<'a, M, H: Observation, I: Iterator<Item = Row<'a>> + Clone> Span<'_, M, H, 
     where
         Parts<R, F, U>: Over<M>,
     {
-        run(method, self.model, self.sensors, self.rows, self.t0, self.prior, self.goal)
+        run_at(method, self.model, self.sensors, self.rows, self.t0, self.prior, self.goal, self.at)
     }
 
     fn refused(self, fault: Fault) -> Outcome {

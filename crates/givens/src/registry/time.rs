@@ -4,7 +4,7 @@ use crate::filter::predict::{
     Backward, EulerMaruyama, Given, ItoTaylor, LevelSet, MomentOde, Plan, Stopped, TimeUpdate,
 };
 use crate::filter::{Belief, Fault, Form, Sizes};
-use crate::model::Sde;
+use crate::model::{At, Sde};
 use crate::ode::Work;
 use crate::rule::{Rule, Shape};
 use crate::scalar::Real;
@@ -45,6 +45,10 @@ impl<M: Sde> TimeUpdate<M> for AnyTime {
 
     fn sizes(&self, model: &M, shape: Shape) -> Sizes {
         each!(self, time => time.sizes(model, shape))
+    }
+
+    fn probe<T: Real>(&self, model: &M, at: &At<T>, mean: &[T], scratch: &mut [T]) -> Result<(), Fault> {
+        each!(self, time => time.probe(model, at, mean, scratch))
     }
 
     fn parameters<'m>(&self, model: &'m M) -> &'m [f64] {

@@ -26,6 +26,8 @@ pub struct Outcome {
     pub estimates: Estimates,
     /// The row that failed, and why.
     pub failure: Option<(usize, StepError)>,
+    /// The states at the times asked for; see [`run_at`](crate::run_at).
+    pub at: Estimates,
     /// The mean from which the failed step set out, length n; empty if none failed, or none began.
     pub failed_at: Vec<f64>,
 }
@@ -36,6 +38,7 @@ impl Outcome {
             estimates: Estimates::new(states, measures, goal != Goal::Filter),
             failure: None,
             failed_at: Vec::new(),
+            at: Estimates::default(),
         }
     }
 

@@ -1,5 +1,6 @@
 //! A method over a whole trajectory.
 
+mod between;
 mod goal;
 mod recorder;
 
@@ -73,7 +74,41 @@ pub fn run<'a, X: Over<M>, M, H: Observation>(
     prior: &Gaussian,
     goal: Goal,
 ) -> Outcome {
+    run_at(method, model, sensors, rows, t0, prior, goal, &[])
+}
+
+/// Runs a method over rows as [`run()`] does, and gives the states at the times `at` besides ([`Outcome::at`]), for
+/// [`Goal::Filter`] and [`Goal::Interval`]: also between the rows and after the last. The times increase, from `t0` on, and those of a
+/// model with a fixed step are whole steps away from each row before. Those that are a row's are that row's estimate; the
+/// others come from predictions beside the recursion over the rows, of which no number changes.
+///
+/// ```
+/// use givens::filter::{Gaussian, SrCdCkf};
+/// use givens::model::zoo::{Radar3d, Turn3d};
+/// use givens::{Data, Goal, run_at};
+///
+/// let mut data = Data::new(3).starting_at(0.0);
+/// data.push(6.0, &[2800.0, 1.2, 0.08])?;
+/// let prior = Gaussian::from_std(&[1000.0, 0.0, 2000.0, 100.0, 200.0, 0.0, 0.0], &[200.0; 7])?;
+/// let (turn, radar, method) = (Turn3d::default(), Radar3d::default(), SrCdCkf::default());
+/// let at = [3.0, 6.0, 9.0];
+/// let outcome = run_at(method, &turn, &radar, data.rows(), data.start(), &prior, Goal::Interval, &at);
+/// assert_eq!((outcome.estimates.len(), outcome.at.time.as_slice()), (1, at.as_slice()));
+/// assert_eq!(outcome.at.mean(1), outcome.estimates.mean(0));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn run_at<'a, X: Over<M>, M, H: Observation>(
+    method: X,
+    model: &M,
+    sensors: &H,
+    rows: impl Iterator<Item = Row<'a>> + Clone,
+    t0: f64,
+    prior: &Gaussian,
+    goal: Goal,
+    at: &[f64],
+) -> Outcome {
     let mut outcome = Outcome::new(prior.mean().len(), sensors.measures(), goal);
-    recorder::record(method, model, sensors, rows, t0, prior, &mut outcome, goal);
+    let wanted = if matches!(goal, Goal::Filter | Goal::Interval) { at } else { &[] };
+    outcome.at = recorder::record(method, model, sensors, rows, t0, prior, &mut outcome, goal, wanted);
     outcome
 }

@@ -1,16 +1,17 @@
 //! The loop over the rows: predict, update, write down; then back again for the smoothers.
 
+use super::between::Between;
 use super::goal::{Goal, Outcome};
 use crate::filter::{Belief, Filter, Form, Gaussian, Method, Over, Prior, StepError};
 use crate::model::Observation;
 use crate::rule::Rule;
-use crate::smoother::{FixedPoint, History};
+use crate::smoother::{FixedPoint, History, Smoothed};
 use crate::{Estimates, Row};
 
-type OwnFilter<'m, X, M> = Filter<'m, X, M, f64, Vec<f64>>;
+pub(super) type OwnFilter<'m, X, M> = Filter<'m, X, M, f64, Vec<f64>>;
 
 /// A filter, what it has recorded, and what it is to find out.
-pub(super) struct Recorder<'m, X: Method, M, H> {
+pub(super) struct Recorder<'t, 'm, X: Method, M, H> {
     filter: OwnFilter<'m, X, M>,
     sensors: &'m H,
     goal: Goal,
@@ -21,9 +22,11 @@ pub(super) struct Recorder<'m, X: Method, M, H> {
     last: (Vec<f64>, Vec<f64>, Vec<f64>),
     /// Whether the row at work has been predicted, and so recorded.
     predicted: bool,
+    /// States at other times.
+    between: Between<'t>,
 }
 
-impl<'m, X: Over<M>, M, H: Observation> Recorder<'m, X, M, H> {
+impl<'t, 'm, X: Over<M>, M, H: Observation> Recorder<'t, 'm, X, M, H> {
     /// A filter with memory of its own for this model, these sensors and `rows` rows.
     pub fn start(
         method: X,
@@ -33,6 +36,7 @@ impl<'m, X: Over<M>, M, H: Observation> Recorder<'m, X, M, H> {
         prior: &Gaussian,
         goal: Goal,
         rows: usize,
+        between: Between<'t>,
     ) -> Result<Self, StepError> {
         let sizes = method.sizes(model).map_err(|fault| StepError { fault, time: t0, step: 0 })?;
         let n = sizes.states;
@@ -57,6 +61,7 @@ impl<'m, X: Over<M>, M, H: Observation> Recorder<'m, X, M, H> {
             present: vec![false; sensors.measures()],
             last: (prior.mean().to_vec(), prior.factor().to_vec(), prior.cov().to_vec()),
             predicted: false,
+            between,
         };
         recorder.begin_point(t0)?;
         Ok(recorder)
@@ -76,6 +81,10 @@ impl<'m, X: Over<M>, M, H: Observation> Recorder<'m, X, M, H> {
         self.predicted = false;
         // a control holds from its row to the next, the first one also before
         self.filter.set_controls(before.unwrap_or(row).u)?;
+        for (there, z) in self.present.iter_mut().zip(row.z) {
+            *there = !z.is_nan();
+        }
+        self.between.ahead(&self.filter, self.sensors, Some((row, &self.present)), out)?;
         match &mut self.point {
             Some(point) => point.predict(&mut self.filter, row.time)?,
             None => self.history.predict(&mut self.filter, row.time)?,
@@ -83,9 +92,6 @@ impl<'m, X: Over<M>, M, H: Observation> Recorder<'m, X, M, H> {
         self.predicted = true;
         push(&self.filter, &mut out.predicted_mean, &mut out.predicted_cov);
         self.filter.set_controls(row.u)?;
-        for (there, z) in self.present.iter_mut().zip(row.z) {
-            *there = !z.is_nan();
-        }
         self.filter.update_present(self.sensors, row.z, &self.present)?;
         let waiting = matches!(self.goal, Goal::Point(_)) && self.point.is_none();
         match &mut self.point {
@@ -100,9 +106,9 @@ impl<'m, X: Over<M>, M, H: Observation> Recorder<'m, X, M, H> {
         if let Goal::Lag(lag) = self.goal {
             let at = out.len() - 1;
             let filter = &self.filter;
-            self.history.smooth(filter, lag.min(at), |age, belief| {
+            self.history.smooth(filter, lag.min(at), |age, smoothed| {
                 if age == lag {
-                    put::<X::Form>(out, at - age, belief);
+                    put::<X::Form>(out, at - age, &smoothed.belief);
                 }
             })?;
         }
@@ -156,17 +162,24 @@ impl<'m, X: Over<M>, M, H: Observation> Recorder<'m, X, M, H> {
             Goal::Filter | Goal::Point(_) => return Ok(()),
         };
         let time = out.time[last];
-        let put = |age: usize, belief: &Belief<f64>| put::<X::Form>(out, last - age, belief);
-        if !failed {
-            return self.history.smooth(&self.filter, steps, put);
-        }
+        let (mut wrong, between) = (None, &mut self.between);
+        let put = |age: usize, smoothed: &Smoothed<f64>| {
+            put::<X::Form>(out, last - age, &smoothed.belief);
+            let row = last - age;
+            wrong = wrong.or(between.back::<X::Form>(row, out.time[row], smoothed).err());
+        };
         let start = Prior { time, mean: &self.last.0, factor: &self.last.1, cov: &self.last.2 };
-        self.history.smooth_from::<X::Form>(start, usize::from(self.predicted), steps, put)
+        if failed {
+            self.history.smooth_from::<X::Form>(start, usize::from(self.predicted), steps, put)?;
+        } else {
+            self.history.smooth(&self.filter, steps, put)?;
+        }
+        wrong.map_or(Ok(()), Err)
     }
 }
 
 /// Appends a filter's mean and covariance.
-fn push<X: Over<M>, M>(filter: &OwnFilter<X, M>, mean: &mut Vec<f64>, cov: &mut Vec<f64>) {
+pub(super) fn push<X: Over<M>, M>(filter: &OwnFilter<X, M>, mean: &mut Vec<f64>, cov: &mut Vec<f64>) {
     let (n, at) = (filter.mean().len(), cov.len());
     mean.extend_from_slice(filter.mean());
     cov.resize(at + n * n, 0.0);
@@ -174,7 +187,7 @@ fn push<X: Over<M>, M>(filter: &OwnFilter<X, M>, mean: &mut Vec<f64>, cov: &mut 
 }
 
 /// Replaces the estimate of a row by a smoothed one.
-fn put<F: Form>(out: &mut Estimates, row: usize, belief: &Belief<f64>) {
+pub(super) fn put<F: Form>(out: &mut Estimates, row: usize, belief: &Belief<f64>) {
     let n = belief.mean.len();
     out.mean[row * n..(row + 1) * n].copy_from_slice(belief.mean);
     let cov = &mut out.cov[row * n * n..(row + 1) * n * n];
@@ -185,7 +198,8 @@ fn put<F: Form>(out: &mut Estimates, row: usize, belief: &Belief<f64>) {
     }
 }
 
-/// Runs over all rows; a failure ends the run after the rows before it have been smoothed among themselves.
+/// Runs over all rows, and gives the states at the times `at`, in increasing order; a failure ends the run after the rows
+/// before it have been smoothed among themselves.
 pub(super) fn record<'a, X: Over<M>, M, H: Observation>(
     method: X,
     model: &M,
@@ -195,14 +209,17 @@ pub(super) fn record<'a, X: Over<M>, M, H: Observation>(
     prior: &Gaussian,
     outcome: &mut Outcome,
     goal: Goal,
-) {
+    at: &[f64],
+) -> Estimates {
     let out = &mut outcome.estimates;
     let count = if goal == Goal::Filter { 0 } else { rows.clone().count() };
-    let mut recorder = match Recorder::start(method, model, sensors, t0, prior, goal, count) {
+    let empty = Estimates::new(out.states, out.measures, out.smoothed);
+    let between = Between::new(at, empty);
+    let mut recorder = match Recorder::start(method, model, sensors, t0, prior, goal, count, between) {
         Ok(recorder) => recorder,
         Err(error) => {
             outcome.failure = Some((0, error));
-            return;
+            return Estimates::default();
         }
     };
     let mut before = None;
@@ -215,6 +232,10 @@ pub(super) fn record<'a, X: Over<M>, M, H: Observation>(
         before = Some(row);
     }
     out.truncate(out.len());
+    if outcome.failure.is_none() {
+        let beyond = recorder.between.ahead(&recorder.filter, sensors, None, out);
+        outcome.failure = beyond.err().map(|error| (out.len().saturating_sub(1), error));
+    }
     if let Err(error) = recorder.finish(out, outcome.failure.is_some()) {
         // a smoothed covariance that does not exist: the filtered rows are no answer to the question. The record that
         // failed leads from its row, counted from one less, to the next
@@ -223,4 +244,5 @@ pub(super) fn record<'a, X: Over<M>, M, H: Observation>(
         outcome.failure.get_or_insert((row, StepError { time, ..error }));
         out.truncate(0);
     }
+    recorder.between.finish(out, outcome.failure.is_some())
 }

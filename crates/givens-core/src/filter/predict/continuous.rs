@@ -3,9 +3,10 @@
 use super::Plan;
 use crate::filter::error::Fault;
 use crate::filter::start::Sizes;
-use crate::model::{Sde, Varies};
+use crate::model::{At, Sde, Varies};
 use crate::ode::{Integrator, Steps};
-use crate::scalar::Real;
+use crate::rule::RuleError;
+use crate::scalar::{Dual2, Mask, Real, as_duals};
 
 /// The steps of a fixed division, in their range.
 pub(super) fn check_steps(steps: Steps) -> Result<(), Fault> {
@@ -29,6 +30,38 @@ impl<M: Sde> Continuous<'_, M> {
         }
     }
 
+    /// Whether the diffusion, at one state, depends on no more than it says.
+    pub fn probe<T: Real>(&self, at: &At<T>, x: &[T], scratch: &mut [T]) -> Result<(), Fault> {
+        let (n, q, varies) = (x.len(), self.0.noises(), self.0.diffusion_varies());
+        let (point, rest) = as_duals(scratch).split_at_mut(n);
+        let (g, rest) = rest.split_at_mut(n * q);
+        let (u, rest) = rest.split_at_mut(at.u.len());
+        let p = &mut rest[..at.p.len()];
+        let constants = point.iter_mut().zip(x).chain(u.iter_mut().zip(at.u)).chain(p.iter_mut().zip(at.p));
+        constants.for_each(|(dual, &x)| *dual = Dual2::constant(x));
+        let still = Dual2::constant(at.t);
+        let mut moves = |t: Dual2<T>, point: &[Dual2<T>], u: &[Dual2<T>], p: &[Dual2<T>]| {
+            self.0.diffusion(&At { t, dt: Dual2::constant(at.dt), u, p }, point, g);
+            let zero = T::zero();
+            g.iter().any(|g| (!g.d.same(zero) | !g.dd.same(zero)).any())
+        };
+        if varies == Varies::Never && moves(Dual2::variable(at.t), point, u, p) {
+            return Err(Fault::Mismatch {
+                why: "the diffusion depends on the time; diffusion_varies must say so",
+            });
+        }
+        for i in 0..if varies == Varies::WithState { 0 } else { n } {
+            point[i] = Dual2::variable(x[i]);
+            if moves(still, point, u, p) {
+                return Err(Fault::Mismatch {
+                    why: "the diffusion depends on the state; diffusion_varies must say so",
+                });
+            }
+            point[i] = Dual2::constant(x[i]);
+        }
+        Ok(())
+    }
+
     /// A diffusion that does not depend on the state.
     pub fn additive(&self) -> Result<(), Fault> {
         match self.0.diffusion_varies() {
@@ -45,13 +78,17 @@ impl Plan {
     }
 
     /// A gap divided as the user says.
-    pub(super) fn of(steps: Steps, gap: f64) -> Self {
+    pub(super) fn of(steps: Steps, gap: f64) -> Result<Self, Fault> {
         let count = match steps {
             _ if gap == 0.0 => 0,
             Steps::Count(count) => count,
             // a gap that is a whole number of longest steps, but for rounding, takes no more than these
             Steps::Longest(longest) => (Real::floor(gap / longest * (1.0 - 1e-12)) + 1.0) as usize,
         };
-        Self { count, dt: if count == 0 { 0.0 } else { gap / count as f64 } }
+        if count > Integrator::default().limit {
+            let (option, must) = ("max_step", "must not divide a gap into more than 100000 steps");
+            return Err(Fault::Option(RuleError { option, value: gap / count as f64, must }));
+        }
+        Ok(Self { count, dt: if count == 0 { 0.0 } else { gap / count as f64 } })
     }
 }

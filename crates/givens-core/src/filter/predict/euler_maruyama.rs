@@ -2,13 +2,14 @@
 
 use super::continuous::{Continuous, check_steps};
 use super::gain::Backward;
-use super::noise::{Stacked, check_spread, diffusion, finish, stacked_scratch};
+use super::noise::{Stacked, check_spread, diffusion, finish, rate_scratch, stacked_scratch};
+use super::transition::larger;
 use super::{Given, Plan, Stopped, TimeUpdate};
 use crate::filter::error::Fault;
 use crate::filter::form::{Belief, Form};
 use crate::filter::memory::take;
 use crate::filter::start::Sizes;
-use crate::model::{Flow, Map, Sde, Varies};
+use crate::model::{At, Flow, Map, Sde, Varies};
 use crate::ode::{Steps, Work};
 use crate::rule::{Rule, Shape, Spread};
 use crate::scalar::Real;
@@ -23,8 +24,9 @@ pub struct EulerMaruyama {
 
 impl EulerMaruyama {
     const fn scratch(sizes: Sizes, shape: Shape, smoothing: bool) -> usize {
-        let Sizes { states: n, process_noise: q, .. } = sizes;
-        stacked_scratch(n, q, q, n * (1 + q), shape, sizes.model, smoothing)
+        let Sizes { states: n, process_noise: q, controls, parameters, .. } = sizes;
+        let step = stacked_scratch(n, q, q, n * (1 + q), shape, sizes.model, smoothing);
+        larger(step, rate_scratch(n, q, controls + parameters))
     }
 }
 
@@ -42,6 +44,10 @@ impl<M: Sde> TimeUpdate<M> for EulerMaruyama {
         Continuous(model).sizes(map.scratch(shape.points))
     }
 
+    fn probe<T: Real>(&self, model: &M, at: &At<T>, mean: &[T], scratch: &mut [T]) -> Result<(), Fault> {
+        Continuous(model).probe(at, mean, scratch)
+    }
+
     fn parameters<'m>(&self, model: &'m M) -> &'m [f64] {
         model.parameters()
     }
@@ -51,7 +57,7 @@ impl<M: Sde> TimeUpdate<M> for EulerMaruyama {
     }
 
     fn plan(&self, _: &M, from: f64, to: f64) -> Result<Plan, Fault> {
-        Ok(Plan::of(self.steps, to - from))
+        Plan::of(self.steps, to - from)
     }
 
     #[inline(always)]

@@ -57,6 +57,10 @@ impl<M: Sde> TimeUpdate<M> for ItoTaylor {
         Continuous(model).sizes(self.map(model, 1).scratch(shape.points).max(at_the_mean))
     }
 
+    fn probe<T: Real>(&self, model: &M, at: &At<T>, mean: &[T], scratch: &mut [T]) -> Result<(), Fault> {
+        Continuous(model).probe(at, mean, scratch)
+    }
+
     fn parameters<'m>(&self, model: &'m M) -> &'m [f64] {
         model.parameters()
     }
@@ -70,10 +74,10 @@ impl<M: Sde> TimeUpdate<M> for ItoTaylor {
 
     fn plan(&self, _: &M, from: f64, to: f64) -> Result<Plan, Fault> {
         let gap = to - from;
-        Ok(match self.variant {
-            Variant::NoiseOnce => Plan::whole(gap),
+        match self.variant {
+            Variant::NoiseOnce => Plan::of(self.steps, gap).map(|_| Plan::whole(gap)),
             _ => Plan::of(self.steps, gap),
-        })
+        }
     }
 
     #[inline(always)]
@@ -99,7 +103,7 @@ impl<M: Sde> TimeUpdate<M> for ItoTaylor {
             model.expansion_points(at, 1, belief.mean, f, l0, lf, rest);
         }
         let count = match self.variant {
-            Variant::NoiseOnce => Plan::of(self.steps, at.dt.first()).count,
+            Variant::NoiseOnce => Plan::of(self.steps, at.dt.first())?.count,
             _ => 1,
         };
         let map = self.map(model, count);

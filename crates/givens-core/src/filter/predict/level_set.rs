@@ -5,12 +5,14 @@ use super::front::{Front, front_len, front_scratch};
 use super::gain::Backward;
 use super::integrate::{Lengths, integrate, integrate_scratch};
 use super::moments::{Moments, moments_len, moments_scratch};
+use super::noise::rate_scratch;
+use super::transition::larger;
 use super::velocity::{ByVelocity, Velocity, by_velocity_scratch};
 use super::{Given, Plan, Stopped, TimeUpdate};
 use crate::filter::error::Fault;
 use crate::filter::form::{Belief, Form};
 use crate::filter::start::Sizes;
-use crate::model::Sde;
+use crate::model::{At, Sde};
 use crate::ode::{Integrator, Work};
 use crate::rule::{Rule, Shape};
 use crate::scalar::Real;
@@ -64,14 +66,20 @@ impl<M: Sde> TimeUpdate<M> for LevelSet {
         Continuous(model).sizes(by_velocity_scratch(model, self.velocity))
     }
 
+    fn probe<T: Real>(&self, model: &M, at: &At<T>, mean: &[T], scratch: &mut [T]) -> Result<(), Fault> {
+        Continuous(model).probe(at, mean, scratch)
+    }
+
     fn parameters<'m>(&self, model: &'m M) -> &'m [f64] {
         model.parameters()
     }
 
     fn scratch(&self, sizes: Sizes, shape: Shape, smoothing: bool) -> usize {
         let Sizes { states: n, process_noise: q, model: image, .. } = sizes;
+        let probe = rate_scratch(n, q, sizes.controls + sizes.parameters);
         let of = |state, system| {
-            integrate_scratch(&self.integrator, Lengths { state, system, image }, sizes, shape.table)
+            let lengths = Lengths { state, system, image };
+            larger(integrate_scratch(&self.integrator, lengths, sizes, shape.table), probe)
         };
         match self.gauge {
             Gauge::Free => of(front_len(n, smoothing), front_scratch(n, q, image)),

@@ -85,6 +85,15 @@ pub trait TimeUpdate<M>: Copy {
     /// The model's sizes, for a rule of that shape; no measures yet.
     fn sizes(&self, model: &M, shape: Shape) -> Sizes;
 
+    /// What the model does at the initial belief that it says it does not; `scratch` is a step's.
+    ///
+    /// # Errors
+    /// What it does.
+    fn probe<T: Real>(&self, model: &M, at: &At<T>, mean: &[T], scratch: &mut [T]) -> Result<(), Fault> {
+        let _ = (model, at, mean, scratch);
+        Ok(())
+    }
+
     /// The model's parameters.
     fn parameters<'m>(&self, model: &'m M) -> &'m [f64];
 

@@ -5,11 +5,13 @@ use super::gain::Backward;
 use super::image::{ByRule, by_rule_noises, by_rule_scratch};
 use super::integrate::{Lengths, integrate, integrate_scratch};
 use super::moments::{Moments, moments_len, moments_scratch};
+use super::noise::rate_scratch;
+use super::transition::larger;
 use super::{Given, Plan, Stopped, TimeUpdate};
 use crate::filter::error::Fault;
 use crate::filter::form::{Belief, Form};
 use crate::filter::start::Sizes;
-use crate::model::Sde;
+use crate::model::{At, Sde};
 use crate::ode::{Integrator, Work};
 use crate::rule::{Rule, Shape};
 use crate::scalar::Real;
@@ -37,6 +39,10 @@ impl<M: Sde> TimeUpdate<M> for MomentOde {
         Sizes { process_noise: plus + minus, ..Continuous(model).sizes(image) }
     }
 
+    fn probe<T: Real>(&self, model: &M, at: &At<T>, mean: &[T], scratch: &mut [T]) -> Result<(), Fault> {
+        Continuous(model).probe(at, mean, scratch)
+    }
+
     fn parameters<'m>(&self, model: &'m M) -> &'m [f64] {
         model.parameters()
     }
@@ -48,7 +54,8 @@ impl<M: Sde> TimeUpdate<M> for MomentOde {
             system: moments_scratch(n, sizes.process_noise, sizes.model),
             image: sizes.model,
         };
-        integrate_scratch(&self.integrator, lengths, sizes, shape.table)
+        let step = integrate_scratch(&self.integrator, lengths, sizes, shape.table);
+        larger(step, rate_scratch(n, sizes.process_noise, sizes.controls + sizes.parameters))
     }
 
     fn plan(&self, _: &M, from: f64, to: f64) -> Result<Plan, Fault> {

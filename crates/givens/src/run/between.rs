@@ -1,0 +1,116 @@
+//! States at any time, beside the recursion over the rows: no other number changes by asking.
+
+use super::recorder::{OwnFilter, push, put};
+use crate::filter::{Form, Over, StepError};
+use crate::model::Observation;
+use crate::smoother::{History, Smoothed};
+use crate::{Estimates, Row};
+
+/// The states at `times`, in increasing order.
+pub(super) struct Between<'t> {
+    times: &'t [f64],
+    smoothing: bool,
+    sides: Vec<Side>,
+    /// Of every time that is a row's, the row.
+    rows: Vec<Option<usize>>,
+    /// One estimate for each time so far.
+    pub out: Estimates,
+}
+
+/// The way over one wanted time, from the row before it to the one behind: each has its own, so that no answer depends on
+/// what else is asked.
+struct Side {
+    history: History<f64, Vec<f64>>,
+    /// Which of the times.
+    index: usize,
+    /// The row at its end.
+    row: usize,
+}
+
+impl<'t> Between<'t> {
+    pub fn new(times: &'t [f64], out: Estimates) -> Self {
+        Self { times, smoothing: out.is_smoothed(), sides: Vec::new(), rows: Vec::new(), out }
+    }
+
+    /// Predicts to all wanted times before that of `next`, from a filter that stands behind its last finished row, and
+    /// for a smoother goes on to that row and its update. Without a next row, to all that are left.
+    pub fn ahead<X: Over<M>, M, H: Observation>(
+        &mut self,
+        filter: &OwnFilter<X, M>,
+        sensors: &H,
+        next: Option<(Row, &[bool])>,
+        finished: &Estimates,
+    ) -> Result<(), StepError> {
+        let n = filter.mean().len();
+        let until = next.map_or(f64::INFINITY, |(row, _)| row.time);
+        while let Some(&t) = self.times.get(self.out.len()).filter(|&&t| t < until) {
+            let last = finished.time.last() == Some(&t);
+            self.rows.push(if last { finished.len().checked_sub(1) } else { None });
+            let mut filter = filter.clone();
+            let memory = if self.smoothing { History::<f64, Vec<f64>>::memory_len(n, 2) } else { 0 };
+            let mut history = History::new(n, X::Form::SQUARE_ROOT, vec![0.0; memory]);
+            history.predict(&mut filter, t)?;
+            self.write(&filter, t);
+            if let (Some((row, present)), true, false) = (next, self.smoothing, last) {
+                history.predict(&mut filter, row.time)?;
+                filter.set_controls(row.u)?;
+                filter.update_present(sensors, row.z, present)?;
+                history.close(&mut filter);
+                self.sides.push(Side { history, index: self.out.len() - 1, row: finished.len() });
+            }
+        }
+        Ok(())
+    }
+
+    /// One more estimate: a prediction.
+    fn write<X: Over<M>, M>(&mut self, filter: &OwnFilter<X, M>, t: f64) {
+        let d = self.out.measures();
+        let out = &mut self.out;
+        push(filter, &mut out.predicted_mean, &mut out.predicted_cov);
+        push(filter, &mut out.mean, &mut out.cov);
+        if self.smoothing {
+            push(filter, &mut out.filtered_mean, &mut out.filtered_cov);
+        }
+        out.time.push(t);
+        out.innovation.extend(core::iter::repeat_n(f64::NAN, d));
+        out.innovation_cov.extend(core::iter::repeat_n(f64::NAN, d * d));
+        out.nis.push(f64::NAN);
+        out.nis_dof.push(0);
+        out.log_likelihood.push(0.0);
+    }
+
+    /// The way back has reached a row; rows come from the last to the first, as the sides do from the end.
+    pub fn back<F: Form>(
+        &mut self,
+        row: usize,
+        time: f64,
+        smoothed: &Smoothed<f64>,
+    ) -> Result<(), StepError> {
+        while let Some(mut side) = self.sides.pop_if(|side| side.row >= row) {
+            if side.row == row {
+                let (out, index) = (&mut self.out, side.index);
+                side.history.smooth_on(time, smoothed, |age, smoothed| {
+                    if age == 1 {
+                        put::<F>(out, index, &smoothed.belief);
+                    }
+                })?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The estimates at all times up to the last finished row, those of the rows themselves taken from `rows`.
+    pub fn finish(mut self, rows: &Estimates, failed: bool) -> Estimates {
+        let end = rows.time.last().copied();
+        for (k, row) in self.rows.iter().enumerate() {
+            if let Some(row) = row.filter(|row| *row < rows.len()) {
+                self.out.copy_row(k, rows, row);
+            }
+        }
+        if failed {
+            let kept = self.out.time.iter().take_while(|&&t| end.is_some_and(|end| t <= end)).count();
+            self.out.truncate(kept);
+        }
+        self.out
+    }
+}

@@ -28,3 +28,19 @@ fn the_readme_shows_what_its_command_says() {
         assert!(std::fs::metadata(folder.join(name)).unwrap().len() > 0, "{name}");
     }
 }
+
+#[test]
+fn the_survey_shows_what_its_command_says() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let readme = std::fs::read_to_string(root.join("examples/survey/README.md")).unwrap();
+    let output = Command::new(env!("CARGO_BIN_EXE_givens"))
+        .current_dir(&root)
+        .args(["smooth", "examples/survey/survey.toml", "examples/survey/fixes.csv", "-o"])
+        .arg(Path::new(env!("CARGO_TARGET_TMPDIR")).join("survey.csv"))
+        .output()
+        .unwrap();
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert!(output.status.success(), "{said}");
+    let shown = readme.split("```text\n").nth(1).and_then(|rest| rest.split("```").next()).unwrap();
+    assert_eq!(said, shown);
+}

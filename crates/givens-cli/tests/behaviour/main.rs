@@ -16,6 +16,7 @@ mod start;
 mod streams;
 mod texts;
 mod truth;
+mod zoo;
 
 use common::Folder;
 use common::models::{DATA, MODEL, TRUTH, WALK};

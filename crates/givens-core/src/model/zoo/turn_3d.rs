@@ -7,6 +7,20 @@ use crate::scalar::Real;
 ///
 /// State: ε, ε̇, η, η̇, ζ, ζ̇, ω (m, m/s in turn, rad/s). The velocity in the plane turns at the rate ω; accelerations and the
 /// rate are driven by white noise.
+///
+/// ```
+/// use givens_core::filter::{Gaussian, Method, SrCdCkf};
+/// use givens_core::model::zoo::{Radar3d, Turn3d};
+///
+/// let model = Turn3d::default();
+/// let mean = [1000.0, 0.0, 2650.0, 150.0, 200.0, 0.0, 0.1];
+/// let prior = Gaussian::from_std(&mean, &[100.0, 100.0, 100.0, 100.0, 100.0, 100.0, 0.02])?;
+/// let mut f = SrCdCkf::default().start(&model, 0.0, prior)?;
+/// f.predict(4.0)?;
+/// f.update(&Radar3d::default(), &[3350.0, 1.32, 0.06])?;
+/// assert!(f.cov()[0].sqrt() < 60.0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Turn3d {
     /// σ₁: of the velocities, m/s per √s.

@@ -146,7 +146,10 @@ fn remedy(model: &Model, matrix: Matrix, choice: Option<&Choice>) -> String {
     let mut ways = Vec::new();
     let form = choice.map(|choice| choice.form);
     let solves = choice.is_some_and(|choice| choice.time_update.solves());
-    if solves && matrix == Matrix::Predicted && choice.is_some_and(|choice| !choice.integrator.solver.adaptive()) {
+    if solves
+        && matrix == Matrix::Predicted
+        && choice.is_some_and(|choice| !choice.integrator.solver.adaptive())
+    {
         ways.push("more steps (--set substeps=…) or a solver that adapts them (--set solver=dp5)".to_owned());
     }
     match form {

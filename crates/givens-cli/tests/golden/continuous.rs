@@ -3,8 +3,8 @@
 use super::common::{Folder, golden_json, numbers};
 use super::compare::Expected;
 use super::set;
+use core::fmt::Write;
 use serde_json::Value;
-use std::fmt::Write;
 
 /// The parts of a filter of the file, beside `substeps`, for each form in which it is the same.
 fn parts(name: &str) -> Vec<Vec<String>> {

@@ -53,7 +53,8 @@ fn quantiles(errors: &[f64]) -> String {
         .filter_map(|part| sizes.get((part * count) as usize).copied())
         .collect();
     cells.push((sizes.iter().map(|size| size * size).sum::<f64>() / count).sqrt());
-    cells.iter().map(|cell| format!("{cell:7.1}")).collect()
+    let words: Vec<String> = cells.iter().map(|cell| format!("{cell:7.1}")).collect();
+    words.concat()
 }
 
 /// East, north and their rates by time, as the command writes them.

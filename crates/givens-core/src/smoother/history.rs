@@ -1,10 +1,10 @@
 //! The record of a filter's time updates, in memory that the caller lends: all of them, or a ring of the last ones.
 
-use super::back::{Passage, back_scratch, mean_back, step_back};
-use super::rotated::{Coordinates, Rotated, rotated_len};
+use super::back::back_scratch;
+use super::rotated::rotated_len;
 use crate::filter::memory::take;
 use crate::filter::predict::multiply;
-use crate::filter::{Belief, Fault, Filter, Form, Grow, Over, Prior, StepError};
+use crate::filter::{Fault, Filter, Form, Grow, Over, StepError};
 use crate::scalar::Real;
 use core::marker::PhantomData;
 
@@ -13,15 +13,15 @@ use core::marker::PhantomData;
 /// With room for every update it serves the fixed-interval smoother; with room for L, the fixed-lag smoother.
 #[derive(Clone, Debug)]
 pub struct History<T, B> {
-    states: usize,
-    square_root: bool,
-    capacity: usize,
-    oldest: usize,
-    count: usize,
+    pub(super) states: usize,
+    pub(super) square_root: bool,
+    pub(super) capacity: usize,
+    pub(super) oldest: usize,
+    pub(super) count: usize,
     /// A prediction has failed within its gap: the records no longer lead to the filter's belief.
-    broken: bool,
-    memory: B,
-    scalar: PhantomData<T>,
+    pub(super) broken: bool,
+    pub(super) memory: B,
+    pub(super) scalar: PhantomData<T>,
 }
 
 impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
@@ -66,7 +66,7 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
     }
 
     /// Whether a belief of n `states` in this form goes with these records, and these into the memory.
-    fn room(&mut self, states: usize, square_root: bool) -> Result<(), Fault> {
+    pub(super) fn room(&mut self, states: usize, square_root: bool) -> Result<(), Fault> {
         let fixed = Self::memory_len(self.states, 0);
         for (of, expected, found) in [
             ("the history's states", self.states, states),
@@ -81,7 +81,10 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
     }
 
     /// Whether the filter goes with this history.
-    fn fits<X: Over<M>, M, C: Grow<T>>(&mut self, filter: &Filter<'_, X, M, T, C>) -> Result<(), StepError> {
+    pub(super) fn fits<X: Over<M>, M, C: Grow<T>>(
+        &mut self,
+        filter: &Filter<'_, X, M, T, C>,
+    ) -> Result<(), StepError> {
         let room = self.room(filter.mean().len(), X::Form::SQUARE_ROOT);
         let whole = if self.broken { Err(BROKEN) } else { Ok(()) };
         room.and_then(|()| for_smoothing(filter)).and(whole).map_err(|fault| filter.fail(fault))
@@ -154,181 +157,12 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
         filter.forget_learnt();
     }
 
-    /// Goes back from the filter's present belief over at most `steps` records, the latest first. `visit` is called
-    /// with 0 and the present belief, then with 1, 2, … and the smoothed belief that many time updates ago. Nothing
-    /// is forgotten: a fixed-lag smoother calls this at every step.
-    ///
-    /// # Errors
-    /// A smoothed covariance that is not positive semidefinite, in covariance form; the time is the filter's.
-    pub fn smooth<X: Over<M>, M, C: Grow<T>>(
-        &mut self,
-        filter: &Filter<'_, X, M, T, C>,
-        steps: usize,
-        visit: impl FnMut(usize, &Smoothed<T>),
-    ) -> Result<(), StepError> {
-        self.fits(filter)?;
-        let (n, (_, mut rest)) = (self.states, self.carve());
-        let belief = present(n, &mut rest);
-        belief.mean.copy_from_slice(filter.mean());
-        belief.factor.copy_from_slice(filter.factor());
-        filter.write_cov(belief.cov);
-        self.go_back(filter.time(), filter.learnt(), 0, steps, visit)
-    }
-
-    /// The same from a belief at the time of the latest record but `skip`, with every update at that time: the filter's own
-    /// before its next prediction.
-    ///
-    /// # Errors
-    /// As [`smooth`](Self::smooth).
-    pub fn smooth_from<F: Form>(
-        &mut self,
-        start: Prior,
-        skip: usize,
-        steps: usize,
-        visit: impl FnMut(usize, &Smoothed<T>),
-    ) -> Result<(), StepError> {
-        let room = self.room(start.mean.len(), F::SQUARE_ROOT);
-        room.map_err(|fault| StepError { fault, time: start.time, step: 0 })?;
-        let (n, (_, mut rest)) = (self.states, self.carve());
-        let belief = present(n, &mut rest);
-        let put = |to: &mut [T], from: &[f64]| to.iter_mut().zip(from).for_each(|(to, &x)| *to = T::of(x));
-        put(belief.mean, start.mean);
-        put(belief.factor, start.factor);
-        put(belief.cov, start.cov);
-        self.go_back(start.time, (&[], &[]), skip, steps, visit)
-    }
-
-    /// The same from a smoothed belief that another history has found at the end of the newest record, which must be
-    /// [closed](Self::close): states between two rows are smoothed beside the recursion over the rows.
-    ///
-    /// # Errors
-    /// As [`smooth`](Self::smooth).
-    pub fn smooth_on(
-        &mut self,
-        time: f64,
-        from: &Smoothed<T>,
-        visit: impl FnMut(usize, &Smoothed<T>),
-    ) -> Result<(), StepError> {
-        let room = self.room(from.belief.mean.len(), !from.root.is_empty());
-        room.map_err(|fault| StepError { fault, time, step: 0 })?;
-        let (n, steps, (_, mut rest)) = (self.states, self.count, self.carve());
-        let belief = present(n, &mut rest);
-        belief.mean.copy_from_slice(from.belief.mean);
-        belief.factor.copy_from_slice(from.belief.factor);
-        belief.cov.copy_from_slice(from.belief.cov);
-        self.go_back(time, (from.shift, from.root), 0, steps, visit)
-    }
-
-    /// The means alone, by the gains alone (2011 §7, remark ii): `visit` is called as in [`smooth`](Self::smooth).
-    ///
-    /// # Errors
-    /// A filter that does not go with this history.
-    pub fn smooth_means<X: Over<M>, M, C: Grow<T>>(
-        &mut self,
-        filter: &Filter<'_, X, M, T, C>,
-        steps: usize,
-        mut visit: impl FnMut(usize, &[T]),
-    ) -> Result<(), StepError> {
-        self.fits(filter)?;
-        let (n, newest, capacity, count) = (self.states, self.oldest + self.count, self.capacity, self.count);
-        let (records, mut rest) = self.carve();
-        let mean = take(&mut rest, n);
-        mean.copy_from_slice(filter.mean());
-        visit(0, mean);
-        let record = |age: usize| {
-            let len = Self::record_len(n);
-            &records[(newest - age) % capacity * len..][..len]
-        };
-        if X::Form::SQUARE_ROOT {
-            let (shift, turn) = filter.learnt();
-            let mut coordinates = Coordinates::start(n, shift, turn, &mut rest);
-            for age in 1..=steps.min(count) {
-                let record = Rotated::of(record(age), n);
-                coordinates.mean_back(&record, rest);
-                coordinates.write_mean(&record, mean);
-                visit(age, mean);
-            }
-        } else {
-            for age in 1..=steps.min(count) {
-                mean_back(&Passage::of(record(age), &[], n), mean, rest);
-                visit(age, mean);
-            }
-        }
-        Ok(())
-    }
-
     /// The records, and memory beside them.
-    fn carve(&mut self) -> (&[T], &mut [T]) {
+    pub(super) fn carve(&mut self) -> (&[T], &mut [T]) {
         let (records, rest) =
             self.memory.as_mut().split_at_mut(self.capacity * Self::record_len(self.states));
         (records, rest)
     }
-
-    fn go_back(
-        &mut self,
-        time: f64,
-        (shift, turn): (&[T], &[T]),
-        skip: usize,
-        steps: usize,
-        mut visit: impl FnMut(usize, &Smoothed<T>),
-    ) -> Result<(), StepError> {
-        let (n, square_root, capacity) = (self.states, self.square_root, self.capacity);
-        let held = self.count - skip.min(self.count);
-        let newest = self.oldest + held;
-        let (records, mut rest) = self.carve();
-        let belief = present(n, &mut rest);
-        let record = |age: usize| {
-            let len = Self::record_len(n);
-            &records[(newest - age) % capacity * len..][..len]
-        };
-        if square_root {
-            let mut coordinates = Coordinates::start(n, &[], &[], &mut rest);
-            let mut smoothed = Smoothed { belief, shift: coordinates.mean, root: coordinates.root };
-            visit(0, &smoothed);
-            if !turn.is_empty() {
-                smoothed.shift.copy_from_slice(shift);
-                smoothed.root.copy_from_slice(turn);
-            }
-            for age in 1..=steps.min(held) {
-                let record = Rotated::of(record(age), n);
-                coordinates = Coordinates { mean: smoothed.shift, root: smoothed.root };
-                coordinates.back(&record, rest);
-                coordinates.write(&record, &mut smoothed.belief);
-                (smoothed.shift, smoothed.root) = (coordinates.mean, coordinates.root);
-                visit(age, &smoothed);
-            }
-            return Ok(());
-        }
-        let mut smoothed = Smoothed { belief, shift: &mut [], root: &mut [] };
-        visit(0, &smoothed);
-        for age in 1..=steps.min(held) {
-            let before = if age < held { &record(age + 1)[2 * n + n * n..][..n * n] } else { &[] };
-            let passage = Passage::of(record(age), before, n);
-            step_back(&passage, &mut smoothed.belief, rest).map_err(|fault| StepError {
-                fault,
-                time,
-                step: newest - age,
-            })?;
-            visit(age, &smoothed);
-        }
-        Ok(())
-    }
-}
-
-/// A belief on its way back.
-#[derive(Debug)]
-pub struct Smoothed<'a, T> {
-    /// mˢ, Sˢ and, in covariance form, Pˢ.
-    pub belief: Belief<'a, T>,
-    /// Square-root form: x = m + S u with m and S as filtered, and the mean of u, length n. Empty in covariance form.
-    pub shift: &'a mut [T],
-    /// A root of the covariance of u, n × n. Empty in covariance form.
-    pub root: &'a mut [T],
-}
-
-/// The belief on its way back.
-fn present<'a, T>(n: usize, memory: &mut &'a mut [T]) -> Belief<'a, T> {
-    Belief { mean: take(memory, n), factor: take(memory, n * n), cov: take(memory, n * n), moved: &mut [] }
 }
 
 /// The filter has moved and no record says how.

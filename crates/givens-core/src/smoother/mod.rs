@@ -7,6 +7,8 @@ mod back;
 mod fixed_point;
 mod history;
 mod rotated;
+mod way_back;
 
 pub use fixed_point::FixedPoint;
-pub use history::{History, Smoothed};
+pub use history::History;
+pub use way_back::Smoothed;

@@ -3,7 +3,7 @@
 use crate::report::digits;
 use givens::filter::{Fault, Halt, Matrix, Quantity, StepError};
 use givens::ode::Solver;
-use givens::registry::{Choice, FormName, TimeName};
+use givens::registry::{Choice, FormName, RuleName, TimeName};
 use givens_io::{Dynamics, Model, Row, Track};
 
 /// Where something failed: the row of a table, and the track and the time.
@@ -29,7 +29,7 @@ fn fault(model: &Model, choice: Option<&Choice>, fault: &Fault) -> String {
                 Matrix::Innovation | Matrix::MeasurementNoise => ("measure", measure(pivot)),
                 _ => ("state", state(pivot)),
             };
-            let remedy = remedy(model, matrix, choice.map(|choice| choice.form));
+            let remedy = remedy(model, matrix, choice);
             format!(
                 "the {} is not positive definite at pivot {} ({kind} {name}); {remedy}",
                 matrix.name(),
@@ -135,20 +135,33 @@ fn plain(model: &Model) -> &'static str {
 }
 
 /// The way out of a covariance that does not exist.
-fn remedy(model: &Model, matrix: Matrix, form: Option<FormName>) -> String {
-    let plain = plain(model);
-    match (matrix, form) {
-        (Matrix::ProcessNoise | Matrix::MeasurementNoise, _) => {
-            "check its expressions at this time".to_owned()
+fn remedy(model: &Model, matrix: Matrix, choice: Option<&Choice>) -> String {
+    match matrix {
+        Matrix::ProcessNoise | Matrix::MeasurementNoise => {
+            return "check its expressions at this time".to_owned();
         }
-        (Matrix::Prior, _) => "check the initial covariance".to_owned(),
-        (Matrix::Conditional, _) => format!(
-            "smooth in covariance form (--set form=covariance), or by a rule without negative weights ({plain})"
-        ),
-        (_, Some(FormName::Covariance)) => format!(
-            "try the square-root form (--set form=square-root), a rule without negative weights ({}), or more noise",
-            plain.trim_start_matches("sr-")
-        ),
-        _ => format!("try a rule without negative weights ({plain}), or more noise"),
+        Matrix::Prior => return "check the initial covariance".to_owned(),
+        _ => {}
     }
+    let mut ways = Vec::new();
+    let form = choice.map(|choice| choice.form);
+    let solves = choice.is_some_and(|choice| choice.time_update.solves());
+    if solves
+        && matrix == Matrix::Predicted
+        && choice.is_some_and(|choice| !choice.integrator.solver.adaptive())
+    {
+        ways.push("more steps (--set substeps=…) or a solver that adapts them (--set solver=dp5)".to_owned());
+    }
+    match form {
+        Some(FormName::SquareRoot) if matrix == Matrix::Conditional => {
+            ways.push("smoothing in covariance form (--set form=covariance)".to_owned());
+        }
+        Some(FormName::Covariance) => ways.push("the square-root form (--set form=square-root)".to_owned()),
+        _ => {}
+    }
+    if choice.is_none_or(|choice| matches!(choice.rule, RuleName::Unscented | RuleName::Cubature5)) {
+        ways.push(format!("a rule without negative weights (--method {})", plain(model)));
+    }
+    ways.push("more noise".to_owned());
+    format!("try {}", ways.join(", or "))
 }

@@ -62,7 +62,8 @@ proptest! {
         let problem = Continuous::random(seed, [n, q, 1], 5, 0.4);
         let at = wanted(&problem);
         for (name, choice) in continuous_choices(n) {
-            let Some(alone) = run_if_any(&problem, &choice, Goal::Interval) else { continue };
+            // a rule with negative weights may fail on a nonlinear problem
+            let Ok(alone) = problem.run(&choice, Goal::Interval).into_result() else { continue };
             let all = run_at(&problem, &choice, Goal::Interval, &at);
             prop_assert_eq!(&all.estimates.mean, &alone.mean, "{}", name);
             prop_assert_eq!(&all.estimates.cov, &alone.cov, "{}", name);

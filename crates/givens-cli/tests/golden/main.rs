@@ -4,6 +4,7 @@
 #[path = "../common/mod.rs"]
 mod common;
 mod compare;
+mod continuous;
 mod discrete;
 mod scenario;
 
@@ -34,6 +35,7 @@ scenarios!(
     duplicated_state,
     no_noise,
     growing_rank,
+    contracting,
     reentry,
     prediction_rows,
     one_time,

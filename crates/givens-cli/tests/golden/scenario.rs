@@ -44,7 +44,11 @@ impl Scenario {
                 let tolerance = if name == "unscented_small" { 1e-6 } else { 1e-10 };
                 let square_root = form[0] == "form=square-root";
                 // P⁻ is nearly singular at the end, and the covariance form subtracts from it
-                let smoothed = if self.name == "reentry" && !square_root { 1e-7 } else { tolerance };
+                let smoothed = match self.name {
+                    "reentry" if !square_root => 1e-7,
+                    "contracting" if !square_root => 2e-2,
+                    _ => tolerance,
+                };
                 self.case(&Case { golden, title, settings, tolerance, smoothed, square_root });
             }
         }

@@ -16,7 +16,10 @@ pub(super) fn distinct<T: Real>(reach: f64, mean: &[T], factor: &[T], floor: &[T
     let mut health = Health::<T>::good();
     for (i, (&m, &floor)) in mean.iter().zip(floor).enumerate() {
         let (steps, lost, deviation) = steps(T::of(reach), m, &factor[i * n..=i * n + i]);
-        health.note((T::of(LOST) * steps).lt(lost) & floor.lt(deviation), i);
+        // points near the mean are weighted by the inverse square of their distance, and so is the rounding of their images
+        let blown = T::of(T::EPSILON * (n as f64 / (reach * reach)).max(1.0)) * m.abs();
+        let gone = (T::of(LOST) * steps).lt(lost) | (T::of(LOST) * deviation).lt(blown);
+        health.note(gone & floor.lt(deviation), i);
     }
     match health.failed() {
         Some(component) => Err(Fault::Indistinct { component }),
@@ -24,12 +27,46 @@ pub(super) fn distinct<T: Real>(reach: f64, mean: &[T], factor: &[T], floor: &[T
     }
 }
 
-/// After an update by a measure without noise, in the lanes of `exact`: any standard deviation may be mere rounding.
-#[inline(always)]
-pub(super) fn raise<T: Real>(floor: &mut [T], exact: T::Mask) {
-    for floor in floor {
-        *floor = T::select(exact, T::of(f64::INFINITY), *floor);
+/// What is known of each component before an update, to judge by it after: n means, then n standard deviations.
+pub(super) fn note<T: Real>(mean: &[T], factor: &[T], before: &mut [T]) {
+    let n = mean.len();
+    let (means, deviations) = before.split_at_mut(n);
+    means.copy_from_slice(mean);
+    for (i, to) in deviations.iter_mut().enumerate() {
+        *to = deviation(&factor[i * n..=i * n + i]);
     }
+}
+
+/// After an update. In the lanes of `exact`, where a measure had no noise, what is left of a standard deviation may be the
+/// rounding of what it was: that much is its floor. Elsewhere, a component that has become known better than the spacing of
+/// numbers at its mean before has a mean of rounding.
+#[inline(always)]
+pub(super) fn judge<T: Real>(
+    before: &[T],
+    factor: &[T],
+    exact: T::Mask,
+    floor: &mut [T],
+) -> Result<T::Mask, Fault> {
+    let n = floor.len();
+    let (means, deviations) = before.split_at(n);
+    let (rounding, half) = (T::of(64.0 * n as f64 * T::EPSILON), T::of(0.5));
+    let mut health = Health::<T>::good();
+    for i in 0..n {
+        floor[i] = T::select(exact, floor[i].max(rounding * deviations[i]), floor[i]);
+        let now = deviation(&factor[i * n..=i * n + i]);
+        let learnt = now.lt(half * deviations[i]) & floor[i].lt(now);
+        health.note(learnt & now.lt(T::of(T::EPSILON) * means[i].abs()), i);
+    }
+    match health.failed() {
+        Some(component) => Err(Fault::Indistinct { component }),
+        None => Ok(health.sick),
+    }
+}
+
+/// The sum of a row's magnitudes: a standard deviation, or somewhat more.
+#[inline(always)]
+fn deviation<T: Real>(row: &[T]) -> T {
+    row.iter().fold(T::zero(), |sum, &s| sum + s.abs())
 }
 
 /// After a prediction: only what still cannot be told from the mean may be rounding of an update.

@@ -113,9 +113,10 @@ impl Layout {
         if !countable(sizes, shape) {
             return Self { sizes, shape, smoothing, moved: false, len: usize::MAX };
         }
-        // mean, factor, covariance, and the rounding in the factor; innovation (measured, predicted, ν, factor, white, NIS, log-likelihood); gain and
-        // conditional root, twice where a gap of several steps is chained
-        let belief = 2 * n + 2 * n * n;
+        // mean, factor, covariance, the rounding in the factor, and what was known before an update; innovation (measured,
+        // predicted, ν, factor, white, NIS, log-likelihood); gain and conditional root, twice where a gap of several steps
+        // is chained, and what updates have learnt
+        let belief = 4 * n + 2 * n * n;
         let innovation = 4 * d + d * d + 2;
         let back = if smoothing { 5 * n * n + n } else { 0 };
         let kept = shape.table + sizes.controls + sizes.parameters + belief + innovation + back;

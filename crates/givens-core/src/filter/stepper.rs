@@ -58,6 +58,8 @@ pub(super) struct Parts<'a, T> {
     pub p: &'a mut [T],
     /// What of each standard deviation may be rounding that an update without noise has left, length n.
     pub floor: &'a mut [T],
+    /// Means and standard deviations before an update, length 2 n.
+    pub before: &'a mut [T],
     pub belief: Belief<'a, T>,
     pub total: Backward<'a, T>,
     pub later: Backward<'a, T>,
@@ -84,6 +86,7 @@ pub(super) fn parts<'a, T, F: Form>(layout: &Layout, mut memory: &'a mut [T]) ->
         u: take(m, layout.sizes.controls),
         p: take(m, layout.sizes.parameters),
         floor: take(m, n),
+        before: take(m, 2 * n),
         belief: Belief {
             mean: take(m, n),
             factor: take(m, n * n),

@@ -1,7 +1,7 @@
 //! The two steps of a filter: `predict(t)` and `update(sensor, z)`.
 
 use super::Matrix;
-use super::distinct::{distinct, lower, raise};
+use super::distinct::{distinct, judge, lower, note};
 use super::error::{Fault, StepError};
 use super::methods::Over;
 use super::predict::{Given, Plan, Stopped, TimeUpdate, accumulate, lanes};
@@ -174,6 +174,7 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
             u,
             p,
             floor,
+            before,
             mut belief,
             mut learnt,
             measured,
@@ -189,6 +190,7 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
             distinct(reach, belief.mean, belief.factor, floor).map_err(fail)?;
         }
         let at = At { t: T::of(time), dt: T::zero(), u, p };
+        note(belief.mean, belief.factor, before);
         let measured = &mut measured[..d];
         measured.iter_mut().zip(z).for_each(|(to, &z)| *to = T::of(z));
         if !moved {
@@ -212,7 +214,7 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
         );
         let updated = done.map_err(fail)?;
         if updated.present > 0 {
-            raise(floor, updated.exact);
+            judge(before, belief.factor, updated.exact, floor).map_err(fail)?;
         }
         self.present = updated.present;
         self.moved &= updated.present == 0;

@@ -1,7 +1,7 @@
 //! The fixed-point smoother: one past state, better known with every measurement (Särkkä & Hartikainen 2010).
 
 use super::back::symmetrise;
-use super::history::for_smoothing;
+use super::history::{BROKEN, for_smoothing};
 use crate::filter::memory::{put_columns, take};
 use crate::filter::predict::multiply;
 use crate::filter::{Fault, Filter, Form, Grow, Learnt, Over, StepError};
@@ -17,6 +17,8 @@ use core::marker::PhantomData;
 pub struct FixedPoint<T, B> {
     states: usize,
     square_root: bool,
+    /// A prediction has failed within its gap.
+    broken: bool,
     memory: B,
     scalar: PhantomData<T>,
 }
@@ -57,7 +59,8 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> FixedPoint<T, B> {
         3 * states + 7 * states * states
     }
 
-    /// Begins at the filter's present time, with its belief, in at least [`memory_len`](Self::memory_len) scalars. The
+    /// Begins at the filter's present time, with its belief; from then on this alone predicts with the filter, and no
+    /// [`History`](super::History) follows it. It works in at least [`memory_len`](Self::memory_len) scalars. The
     /// filter must have been started for smoothing.
     ///
     /// # Errors
@@ -80,7 +83,7 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> FixedPoint<T, B> {
         parts.conditional.fill(T::zero());
         Learnt { shift: parts.shift, turn: parts.chain }.reset(n);
         filter.forget_learnt();
-        Ok(Self { states: n, square_root: X::Form::SQUARE_ROOT, memory, scalar: PhantomData })
+        Ok(Self { states: n, square_root: X::Form::SQUARE_ROOT, broken: false, memory, scalar: PhantomData })
     }
 
     /// Whether the filter goes with the one that this was begun with.
@@ -94,7 +97,8 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> FixedPoint<T, B> {
             let (expected, found) = (cov(self.square_root), cov(X::Form::SQUARE_ROOT));
             return Err(filter.fail(Fault::Length { of: "the filter's own covariance", expected, found }));
         }
-        for_smoothing(filter).map_err(|fault| filter.fail(fault))
+        let whole = if self.broken { Err(BROKEN) } else { Ok(()) };
+        for_smoothing(filter).and(whole).map_err(|fault| filter.fail(fault))
     }
 
     /// Predicts with a filter that was started for smoothing, and notes what the prediction forgets.
@@ -116,7 +120,8 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> FixedPoint<T, B> {
             parts.chain.copy_from_slice(parts.product);
             filter.forget_learnt();
         }
-        filter.predict(t)?;
+        let start = filter.time();
+        filter.predict(t).inspect_err(|_| self.broken = filter.time() > start)?;
         let parts = parts(n, self.memory.as_mut());
         let (gain, conditional) = filter.backward();
         if X::Form::SQUARE_ROOT {

@@ -18,6 +18,8 @@ pub struct History<T, B> {
     capacity: usize,
     oldest: usize,
     count: usize,
+    /// A prediction has failed within its gap: the records no longer lead to the filter's belief.
+    broken: bool,
     memory: B,
     scalar: PhantomData<T>,
 }
@@ -41,7 +43,16 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
     pub fn new(states: usize, square_root: bool, mut memory: B) -> Self {
         let room = memory.as_mut().len().saturating_sub(Self::memory_len(states, 0));
         let capacity = room / Self::record_len(states).max(1);
-        Self { states, square_root, capacity, oldest: 0, count: 0, memory, scalar: PhantomData }
+        Self {
+            states,
+            square_root,
+            capacity,
+            oldest: 0,
+            count: 0,
+            broken: false,
+            memory,
+            scalar: PhantomData,
+        }
     }
 
     /// Records held.
@@ -72,7 +83,8 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
     /// Whether the filter goes with this history.
     fn fits<X: Over<M>, M, C: Grow<T>>(&mut self, filter: &Filter<'_, X, M, T, C>) -> Result<(), StepError> {
         let room = self.room(filter.mean().len(), X::Form::SQUARE_ROOT);
-        room.and_then(|()| for_smoothing(filter)).map_err(|fault| filter.fail(fault))
+        let whole = if self.broken { Err(BROKEN) } else { Ok(()) };
+        room.and_then(|()| for_smoothing(filter)).and(whole).map_err(|fault| filter.fail(fault))
     }
 
     /// Predicts, and records the update. The filter must have been started for smoothing.
@@ -98,7 +110,8 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
         } else {
             filter.write_cov(&mut rest[..n * n]);
         }
-        filter.predict(t)?;
+        let start = filter.time();
+        filter.predict(t).inspect_err(|_| self.broken = filter.time() > start)?;
         let slot = (self.oldest + self.count) % self.capacity;
         let (records, belief) = self.memory.as_mut().split_at_mut(self.capacity * Self::record_len(n));
         let mut record = &mut records[slot * Self::record_len(n)..][..Self::record_len(n)];
@@ -317,6 +330,11 @@ pub struct Smoothed<'a, T> {
 fn present<'a, T>(n: usize, memory: &mut &'a mut [T]) -> Belief<'a, T> {
     Belief { mean: take(memory, n), factor: take(memory, n * n), cov: take(memory, n * n), moved: &mut [] }
 }
+
+/// The filter has moved and no record says how.
+pub(super) const BROKEN: Fault = Fault::Mismatch {
+    why: "a prediction has failed within its gap, and the filter has moved without a record; start anew from its belief",
+};
 
 /// A filter must leave what its smoother needs.
 pub(super) fn for_smoothing<X: Over<M>, M, T: Real, C: Grow<T>>(

@@ -20,8 +20,8 @@ pub(super) struct Imaged<'a, T> {
 
 /// How the drift is averaged over a belief.
 pub(super) trait Image: Copy {
-    /// D does not depend on S but by D = J S: it may be asked for J itself.
-    const FIRST_ORDER: bool;
+    /// D depends on S by D = J S alone, and N not at all: the image may be asked for J itself.
+    fn first_order(&self) -> bool;
     /// Length n of the state.
     fn states(&self) -> usize;
     /// Columns of N, of positive and of negative weight.
@@ -96,7 +96,9 @@ impl<'a, M: Sde, R: Rule> ByRule<'a, M, R> {
 }
 
 impl<M: Sde, R: Rule> Image for ByRule<'_, M, R> {
-    const FIRST_ORDER: bool = R::FIRST_ORDER;
+    fn first_order(&self) -> bool {
+        R::FIRST_ORDER && !self.flow().diffusion
+    }
 
     fn states(&self) -> usize {
         self.model.states()

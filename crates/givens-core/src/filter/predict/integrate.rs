@@ -11,6 +11,7 @@ use crate::filter::start::Sizes;
 use crate::kernels::{Health, copy_lower, downdate, solve_lower, tria};
 use crate::model::At;
 use crate::ode::{Integrator, Segment, Stop, System, Why, Work};
+use crate::rule::RuleError;
 use crate::scalar::{Mask, Real};
 
 /// A system whose state is a belief: the mean first, then its spread, then the matrix X of C13.
@@ -76,7 +77,8 @@ pub(super) fn integrate<T: Real, C: Carrier, F: Form, M, R>(
     let y = take(&mut scratch, carrier.len());
     let next = take(&mut scratch, n * n);
     carrier.begin(belief, y);
-    let stopped = |stop: Stop<Fault>| Stopped { reached: Some(stop.time), fault: fault(&stop, n) };
+    let stopped =
+        |stop: Stop<Fault>| Stopped { reached: Some(stop.time), fault: fault(&stop, n, integrator) };
     let mut sick = T::Mask::splat(false);
     match &mut back {
         Some(back) if F::SQUARE_ROOT => {
@@ -127,7 +129,7 @@ pub(super) fn integrate<T: Real, C: Carrier, F: Form, M, R>(
 }
 
 /// A solver's end in the words of a step.
-fn fault(stop: &Stop<Fault>, states: usize) -> Fault {
+fn fault(stop: &Stop<Fault>, states: usize, integrator: &Integrator) -> Fault {
     let halt = |why| Fault::Solver { why, smallest: stop.smallest };
     match stop.why {
         Why::System(fault) => fault,
@@ -135,6 +137,10 @@ fn fault(stop: &Stop<Fault>, states: usize) -> Fault {
             Fault::NotFinite { quantity: Quantity::Drift, component }
         }
         Why::NotFinite { .. } => Fault::NotPositive { matrix: Matrix::Predicted, pivot: 0 },
+        Why::StepLimit { .. } if !integrator.solver.adaptive() => {
+            let (value, must) = (stop.smallest, "must not divide a gap into more than 100000 steps");
+            Fault::Option(RuleError { option: "max_step", value, must })
+        }
         Why::StepLimit { limit } => halt(Halt::StepLimit { limit }),
         Why::StepTooSmall => halt(Halt::StepTooSmall),
     }

@@ -116,7 +116,7 @@ impl<I: Image> System for Moments<I> {
         let solved = take(&mut scratch, n * n);
         let column = take(&mut scratch, n);
         // D = J if the rule is of first order and P is carried: nothing is then factorised
-        let jacobian = I::FIRST_ORDER && !self.square_root;
+        let jacobian = self.image.first_order() && !self.square_root;
         if self.square_root {
             unpack(n, lower, s);
             positive(n, s)?;

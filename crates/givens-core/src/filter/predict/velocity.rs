@@ -58,7 +58,9 @@ pub(super) fn by_velocity_scratch<M: Sde>(model: &M, velocity: Velocity) -> usiz
 }
 
 impl<M: Sde> Image for ByVelocity<'_, M> {
-    const FIRST_ORDER: bool = false;
+    fn first_order(&self) -> bool {
+        false
+    }
 
     fn states(&self) -> usize {
         self.model.states()

@@ -40,7 +40,7 @@ pub(super) fn update<T: Real>(
     }
     add_outer(p_zz, d, d, sensed.minus, lost, sensed.minus, lost, lost, -1.0);
     let mut sick = lanes(cholesky_scaled(p_zz, d, scale), Matrix::Innovation)?;
-    sick = sick | pivots(p_zz, d, d)?;
+    sick = sick | pivots(p_zz, d, &innovation.predicted[..d])?;
 
     cross(gain, belief.factor, sensed, n);
     divide_lower_transposed(gain, n, d, p_zz, d);

@@ -47,7 +47,7 @@ pub(super) fn update<T: Real>(
         }
         sick = sick | split(downdate(block, size, size, column), d, Matrix::Innovation, Matrix::Posterior)?;
     }
-    sick = sick | pivots(block, size, d)?;
+    sick = sick | pivots(block, size, &innovation.predicted[..d])?;
     copy_lower(innovation.factor, d, block, size);
     innovation.whiten(block, size, d)?;
     for i in 0..n {
@@ -59,12 +59,13 @@ pub(super) fn update<T: Real>(
     Ok(sick)
 }
 
-/// The innovation covariance must have every pivot: it is divided by.
+/// The innovation covariance must have every pivot: it is divided by. One below the spacing of numbers at the predicted
+/// measure is none.
 #[inline(always)]
-pub(super) fn pivots<T: Real>(root: &[T], stride: usize, d: usize) -> Result<T::Mask, Fault> {
+pub(super) fn pivots<T: Real>(root: &[T], stride: usize, predicted: &[T]) -> Result<T::Mask, Fault> {
     let mut sick = T::Mask::splat(false);
-    for i in 0..d {
-        let zero = !T::zero().lt(root[i * stride + i]);
+    for (i, z) in predicted.iter().enumerate() {
+        let zero = !(T::of(T::EPSILON) * z.abs()).lt(root[i * stride + i]);
         if zero.all() {
             return Err(Fault::SingularInnovation { measure: i });
         }

@@ -41,7 +41,7 @@ pub(super) fn update<T: Real>(
         }
         sick = sick | lanes(downdate(s_zz, d, wide, &mut column[..d]), Matrix::Innovation)?;
     }
-    sick = sick | pivots(s_zz, wide, d)?;
+    sick = sick | pivots(s_zz, wide, &innovation.predicted[..d])?;
 
     cross(gain, belief.factor, sensed, n);
     divide_lower_transposed(gain, n, d, s_zz, wide);

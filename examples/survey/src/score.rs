@@ -53,8 +53,10 @@ fn quantiles(errors: &[f64]) -> String {
         .filter_map(|part| sizes.get((part * count) as usize).copied())
         .collect();
     cells.push((sizes.iter().map(|size| size * size).sum::<f64>() / count).sqrt());
-    let words: Vec<String> = cells.iter().map(|cell| format!("{cell:7.1}")).collect();
-    words.concat()
+    cells.iter().fold(String::new(), |mut line, cell| {
+        let _ = write!(line, "{cell:7.1}");
+        line
+    })
 }
 
 /// East, north and their rates by time, as the command writes them.

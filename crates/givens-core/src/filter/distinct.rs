@@ -69,13 +69,17 @@ fn deviation<T: Real>(row: &[T]) -> T {
     row.iter().fold(T::zero(), |sum, &s| sum + s.abs())
 }
 
-/// After a prediction: only what still cannot be told from the mean may be rounding of an update.
+/// After a prediction: only what still cannot be told from the mean may be rounding of an update. What the model itself
+/// has shrunk below the spacing of numbers at a mean that stays where it is, is as good as known: it is its own floor.
 #[inline(always)]
-pub(super) fn lower<T: Real>(reach: f64, mean: &[T], factor: &[T], floor: &mut [T]) {
+pub(super) fn lower<T: Real>(reach: f64, before: &[T], mean: &[T], factor: &[T], floor: &mut [T]) {
     let n = mean.len();
+    let (means, deviations) = before.split_at(n);
     for (i, (&m, floor)) in mean.iter().zip(floor).enumerate() {
-        let (steps, lost, _) = steps(T::of(reach), m, &factor[i * n..=i * n + i]);
-        *floor = T::select((T::of(LOST) * steps).lt(lost), *floor, T::zero());
+        let (steps, lost, deviation) = steps(T::of(reach), m, &factor[i * n..=i * n + i]);
+        let shrunk = deviation.lt(deviations[i]) & m.abs().le(means[i].abs() + means[i].abs());
+        let kept = T::select(shrunk, floor.max(deviation), *floor);
+        *floor = T::select((T::of(LOST) * steps).lt(lost), kept, T::zero());
     }
 }
 

@@ -86,7 +86,9 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
         let (model, n) = (self.model, self.layout.sizes.states);
         let (smoothing, step) = (self.layout.smoothing, self.step);
         let mut work = self.work;
-        let Parts { table, u, p, floor, mut belief, mut total, mut later, scratch, .. } = self.parts();
+        let Parts { table, u, p, floor, before, mut belief, mut total, mut later, scratch, .. } =
+            self.parts();
+        note(belief.mean, belief.factor, before);
         if let Some(reach) = rule.reach(n) {
             distinct(reach, belief.mean, belief.factor, floor).map_err(|fault| StepError {
                 fault,
@@ -108,7 +110,7 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
         };
         chain.map_err(|fault| StepError { fault, time: t + dt, step })?;
         if let Some(reach) = rule.reach(n) {
-            lower(reach, belief.mean, belief.factor, floor);
+            lower(reach, before, belief.mean, belief.factor, floor);
         }
         self.work = work;
         self.moved = self.layout.moved;

@@ -110,7 +110,8 @@ fn a_rule_without_points_has_none_that_coincide() {
 #[test]
 fn points_of_a_small_alpha_coincide_first() {
     let model = Straight(1.0);
-    let filter = |alpha| start::<f64, _>(SrUkf { alpha, ..SrUkf::DEFAULT }, &model, [4e6, 1.0], [1e-3, 1.0]);
+    // before the points, the mean is lost: its rounding is weighted by 1/α²
+    let filter = |alpha| start::<f64, _>(SrUkf { alpha, ..SrUkf::DEFAULT }, &model, [4e6, 1.0], [1e-2, 1.0]);
     assert_eq!(indistinct(filter(1e-3).predict(1.0)), None);
     assert_eq!(indistinct(filter(1e-8).predict(1.0)), Some(0));
 }

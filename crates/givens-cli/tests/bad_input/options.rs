@@ -180,7 +180,19 @@ fn wrong_parameters_and_lists() {
                 &["--methods ukf,,ckf: a name is empty", "commas between"],
             ),
             ("methods_missing", NONE, "compare model.toml data.csv", &["--methods <A,B,…>"]),
-            ("at", NONE, "filter model.toml data.csv -o out.csv --at 1,2", &["unexpected argument '--at'"]),
+            (
+                "at",
+                NONE,
+                "filter model.toml data.csv -o out.csv --at 1,b",
+                &["--at: `b` is not a time", "every:DT"],
+            ),
+            (
+                "at_early",
+                NONE,
+                "filter model.toml data.csv -o out.csv --at=-1",
+                &["--at -1: before the initial belief"],
+            ),
+            ("at_every", NONE, "filter model.toml data.csv -o out.csv --at every:0", &["DT must be above 0"]),
             (
                 "report",
                 NONE,

@@ -16,8 +16,9 @@ pub(super) fn distinct<T: Real>(reach: f64, mean: &[T], factor: &[T], floor: &[T
     let mut health = Health::<T>::good();
     for (i, (&m, &floor)) in mean.iter().zip(floor).enumerate() {
         let (steps, lost, deviation) = steps(T::of(reach), m, &factor[i * n..=i * n + i]);
-        // points near the mean are weighted by the inverse square of their distance, and so is the rounding of their images
-        let blown = T::of(T::EPSILON * (n as f64 / (reach * reach)).max(1.0)) * m.abs();
+        // points nearer than a standard deviation are weighted by the inverse square of their distance, and so is the
+        // rounding of their images
+        let blown = T::of(T::EPSILON * n as f64 * (1.0 / (reach * reach) - 1.0).max(0.0)) * m.abs();
         let gone = (T::of(LOST) * steps).lt(lost) | (T::of(LOST) * deviation).lt(blown);
         health.note(gone & floor.lt(deviation), i);
     }
@@ -37,8 +38,8 @@ pub(super) fn note<T: Real>(mean: &[T], factor: &[T], before: &mut [T]) {
     }
 }
 
-/// After an update. In the lanes of `exact`, where a measure had no noise, what is left of a standard deviation may be the
-/// rounding of what it was: that much is its floor. Elsewhere, a component that has become known better than the spacing of
+/// After an update. In the lanes of `exact`, where a measure had no noise, what is left of a standard deviation that it has
+/// made small may be the rounding of what it was and of its mean: that much is its floor. Elsewhere, a component that has become known better than the spacing of
 /// numbers at its mean before has a mean of rounding.
 #[inline(always)]
 pub(super) fn judge<T: Real>(
@@ -52,10 +53,12 @@ pub(super) fn judge<T: Real>(
     let (rounding, half) = (T::of(64.0 * n as f64 * T::EPSILON), T::of(0.5));
     let mut health = Health::<T>::good();
     for i in 0..n {
-        floor[i] = T::select(exact, floor[i].max(rounding * deviations[i]), floor[i]);
         let now = deviation(&factor[i * n..=i * n + i]);
-        let learnt = now.lt(half * deviations[i]) & floor[i].lt(now);
-        health.note(learnt & now.lt(T::of(T::EPSILON) * means[i].abs()), i);
+        let learnt = now.lt(half * deviations[i]);
+        let left = rounding * (deviations[i] + means[i].abs());
+        floor[i] = T::select(exact & learnt, floor[i].max(left), floor[i]);
+        let vague = now.lt(T::of(T::EPSILON) * means[i].abs()) & floor[i].lt(now);
+        health.note(learnt & vague, i);
     }
     match health.failed() {
         Some(component) => Err(Fault::Indistinct { component }),

@@ -120,7 +120,7 @@ impl Integrator {
             Steps::Longest(longest) if !(longest > 0.0 && longest.is_finite()) => {
                 wrong("max_step", longest, "must be a number above 0")
             }
-            _ if !(range(rtol) && rtol < 1.0) => wrong("rtol", rtol, "must be a number from 0 to below 1"),
+            _ if !range(rtol) => wrong("rtol", rtol, "must be a number not below 0"),
             _ if !range(atol) => wrong("atol", atol, "must be a number not below 0"),
             _ if rtol == 0.0 && atol == 0.0 => wrong("rtol", rtol, "must be above 0, or atol must be"),
             _ if self.limit == 0 => wrong("limit", 0.0, "must be at least 1"),

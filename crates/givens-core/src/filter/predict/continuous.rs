@@ -13,6 +13,17 @@ pub(super) fn check_steps(steps: Steps) -> Result<(), Fault> {
     Integrator { steps, ..Integrator::default() }.check().map_err(Fault::Option)
 }
 
+/// A solver's options, for moments: in standard deviations, an error of one is no answer.
+pub(super) fn check_integrator(integrator: &Integrator) -> Result<(), Fault> {
+    integrator.check().map_err(Fault::Option)?;
+    let rtol = integrator.tolerance.rtol;
+    if integrator.solver.adaptive() && rtol >= 1.0 {
+        let must = "must be below 1: it is in standard deviations";
+        return Err(Fault::Option(RuleError { option: "rtol", value: rtol, must }));
+    }
+    Ok(())
+}
+
 /// A continuous model, as its time updates see it.
 pub(super) struct Continuous<'m, M>(pub &'m M);
 

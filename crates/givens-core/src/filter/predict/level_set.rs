@@ -1,6 +1,6 @@
 //! The level-set time update (2021), with a root that is free to turn or held triangular.
 
-use super::continuous::Continuous;
+use super::continuous::{Continuous, check_integrator};
 use super::front::{Front, front_len, front_scratch};
 use super::gain::Backward;
 use super::integrate::{Lengths, integrate, integrate_scratch};
@@ -54,7 +54,7 @@ pub struct LevelSet {
 
 impl<M: Sde> TimeUpdate<M> for LevelSet {
     fn check(&self, model: &M) -> Result<(), Fault> {
-        self.integrator.check().map_err(Fault::Option)?;
+        check_integrator(&self.integrator)?;
         Continuous(model).additive()
     }
 

@@ -1,6 +1,6 @@
 //! The moment differential equations (2012 §2.2; Särkkä 2007), in covariance and in square-root form.
 
-use super::continuous::Continuous;
+use super::continuous::{Continuous, check_integrator};
 use super::gain::Backward;
 use super::image::{ByRule, by_rule_noises, by_rule_scratch};
 use super::integrate::{Lengths, integrate, integrate_scratch};
@@ -26,7 +26,7 @@ pub struct MomentOde {
 
 impl<M: Sde> TimeUpdate<M> for MomentOde {
     fn check(&self, _: &M) -> Result<(), Fault> {
-        self.integrator.check().map_err(Fault::Option)
+        check_integrator(&self.integrator)
     }
 
     fn states(&self, model: &M) -> usize {

@@ -1,5 +1,5 @@
 //! Continuous models stepped by hand: what has an answer in closed form, and what is refused.
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::unwrap_used, clippy::panic)]
 
 use givens_core::filter::{
     CdCkf, CdCkf2, CdEkf, Fault, Gaussian, Lskf, Method, Over, SrCdCkf, SrCdCkf2, SrCdEkf, StepError,

@@ -1,6 +1,6 @@
 //! What failed, in the names of the model.
 
-use crate::report::digits;
+use crate::message::digits;
 use givens::filter::{Fault, Halt, Matrix, Quantity, StepError};
 use givens::ode::Solver;
 use givens::registry::{Choice, FormName, RuleName, TimeName};

@@ -53,3 +53,13 @@ pub fn say(text: &str) {
 pub fn count(number: usize, noun: &str) -> String {
     if number == 1 { format!("1 {noun}") } else { format!("{number} {noun}s") }
 }
+
+/// A number with five digits; a dash if it is none.
+pub fn digits(x: f64) -> String {
+    match x.abs() {
+        size if size.is_nan() => "-".to_owned(),
+        size if size != 0.0 && !(1e-3..1e6).contains(&size) => format!("{x:.4e}"),
+        0.0 => "0".to_owned(),
+        size => format!("{x:.*}", (4 - size.log10().floor() as i32).max(0) as usize),
+    }
+}

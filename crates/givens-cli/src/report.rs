@@ -1,6 +1,6 @@
 //! What stderr says at the end: how much was done, how likely it was, how right.
 
-use crate::message::{count, say};
+use crate::message::{count, digits, say};
 use crate::method::title;
 use crate::plan::Plan;
 use crate::session::Session;
@@ -59,14 +59,4 @@ fn accuracy_lines(model: &Model, accuracy: &Accuracy) -> Vec<String> {
         ));
     }
     lines
-}
-
-/// A number with five digits; a dash if it is none.
-pub fn digits(x: f64) -> String {
-    match x.abs() {
-        size if size.is_nan() => "-".to_owned(),
-        size if size != 0.0 && !(1e-3..1e6).contains(&size) => format!("{x:.4e}"),
-        0.0 => "0".to_owned(),
-        size => format!("{x:.*}", (4 - size.log10().floor() as i32).max(0) as usize),
-    }
 }

@@ -2,10 +2,9 @@
 
 use crate::args::CompareArgs;
 use crate::files;
-use crate::message::{Stop, count, say};
+use crate::message::{Stop, count, digits, say};
 use crate::method::{Named, Typed, choose, setting};
 use crate::plan::{Plan, model};
-use crate::report::digits;
 use crate::session::Session;
 use crate::stdout;
 use givens::metrics::{Consistency, Verdict};

@@ -1,8 +1,8 @@
 //! The differential equations of the level set: the mean, and a root M of the covariance that is free to turn (2021).
 
+use super::columns::{dot, gather};
 use super::image::{Image, Imaged};
 use super::integrate::Carrier;
-use super::moments::{dot, gather};
 use crate::filter::error::{Fault, Matrix};
 use crate::filter::form::Belief;
 use crate::filter::memory::take;

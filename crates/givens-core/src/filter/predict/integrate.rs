@@ -1,8 +1,8 @@
 //! A belief carried over a gap by a solver, and what a smoother needs to come back.
 
+use super::columns::{dot, gather};
 use super::gain::{Backward, gain_of_covariance};
 use super::image::Image;
-use super::moments::{dot, gather};
 use super::{Given, Stopped};
 use crate::filter::error::{Fault, Halt, Matrix, Quantity};
 use crate::filter::form::{Belief, Form};

@@ -1,5 +1,6 @@
 //! Time updates: how a belief moves from one time to a later one.
 
+mod columns;
 mod continuous;
 mod euler_maruyama;
 mod front;

@@ -1,5 +1,6 @@
 //! The differential equations of a belief's mean and covariance, or of its lower triangular root (2012 §2.2).
 
+use super::columns::{dot, gather};
 use super::image::{Image, Imaged};
 use super::integrate::Carrier;
 use super::packed::{pack, packed_len, unpack, unpack_symmetric};
@@ -238,14 +239,6 @@ pub(super) fn positive<T: Real>(n: usize, s: &[T]) -> Result<(), Fault> {
     Ok(())
 }
 
-/// Column `j` of a matrix of `columns` columns.
-#[inline(always)]
-pub(super) fn gather<T: Real>(a: &[T], columns: usize, j: usize, to: &mut [T]) {
-    for (to, row) in to.iter_mut().zip(a.chunks_exact(columns.max(1))) {
-        *to = row[j];
-    }
-}
-
 /// A + v vᵀ (or A − v vᵀ) in the lower triangle.
 #[inline(always)]
 fn add_square<T: Real>(a: &mut [T], n: usize, v: &[T], plus: bool) {
@@ -255,9 +248,4 @@ fn add_square<T: Real>(a: &mut [T], n: usize, v: &[T], plus: bool) {
             *a = x.mul_add(y, *a);
         }
     }
-}
-
-#[inline(always)]
-pub(super) fn dot<T: Real>(a: &[T], b: &[T]) -> T {
-    a.iter().zip(b).fold(T::zero(), |sum, (&x, &y)| x.mul_add(y, sum))
 }

@@ -155,3 +155,47 @@ fn keeps<X: Method + givens::filter::Over<Straight>>(name: &str, method: X) {
 fn what_is_accepted_keeps_its_variance() {
     every_type!(keeps);
 }
+
+/// The height of the first state above 10⁶, to a few picometres: at that mean, doubles are a tenth of a nanometre apart.
+struct Height;
+
+impl Observation for Height {
+    fn states(&self) -> usize {
+        2
+    }
+    fn measures(&self) -> usize {
+        1
+    }
+    fn observe<T: Real>(&self, _: &At<T>, x: &[T], out: &mut [T]) {
+        out[0] = x[0] - T::of(1e6);
+    }
+    fn noise(&self) -> Noise {
+        Noise::Root(1)
+    }
+    fn measurement_noise<T: Real>(&self, _: &At<T>, out: &mut [T]) {
+        out[0] = T::of(1e-12);
+    }
+}
+
+fn as_before<X: Method + givens::filter::Over<Straight>>(name: &str, method: X) {
+    let model = Straight(1.0);
+    let mut filter = start::<f64, X>(method, &model, [1e6, 3.0], [1.0, 0.5]);
+    filter.update(&model, &[1e6 + 0.3]).unwrap();
+    let (mean, cov) = (filter.mean().to_vec(), filter.cov());
+    assert_eq!(indistinct(filter.update(&Height, &[0.25])), Some(0), "{name}");
+    assert_eq!((filter.mean(), filter.cov()), (&mean[..], cov), "{name}");
+    assert!(filter.innovation().nu.is_empty() && filter.innovation().nis == 0.0, "{name}");
+    // and it goes on as if the measurement had not been
+    let mut other = start::<f64, X>(method, &model, [1e6, 3.0], [1.0, 0.5]);
+    other.update(&model, &[1e6 + 0.3]).unwrap();
+    for filter in [&mut filter, &mut other] {
+        filter.predict(1.0).unwrap();
+        filter.update(&model, &[1e6 + 3.1]).unwrap();
+    }
+    assert_eq!((filter.mean(), filter.cov()), (other.mean(), other.cov()), "{name}");
+}
+
+#[test]
+fn a_mean_of_rounding_is_refused_and_the_belief_is_as_before() {
+    every_type!(as_before);
+}

@@ -13,6 +13,7 @@ mod linear;
 mod memory;
 mod order;
 mod precision;
+mod repeated;
 mod rules;
 mod singular;
 mod smoothers;

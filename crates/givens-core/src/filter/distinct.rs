@@ -1,6 +1,7 @@
 //! Whether the points of a rule can be told from the mean, in numbers of a given length.
 
 use super::error::Fault;
+use super::update::Rows;
 use crate::kernels::Health;
 use crate::scalar::Real;
 
@@ -38,32 +39,36 @@ pub(super) fn note<T: Real>(mean: &[T], factor: &[T], before: &mut [T]) {
     }
 }
 
-/// After an update. In the lanes of `exact`, where a measure had no noise, what is left of a standard deviation that it has
-/// made small may be the rounding of what it was and of its mean: that much is its floor. Elsewhere, a component that has become known better than the spacing of
-/// numbers at its mean before has a mean of rounding.
+/// After an update. In the lanes of `exact`, where a measure had no noise, what is left of a standard deviation that it
+/// has made small may be the rounding of what it was and of its mean: that much is its floor. Elsewhere, a component that
+/// has become known better than the spacing of numbers at its mean before has a mean of rounding: nothing is changed then.
 #[inline(always)]
 pub(super) fn judge<T: Real>(
     before: &[T],
-    factor: &[T],
+    factor: Rows<T>,
     exact: T::Mask,
     floor: &mut [T],
 ) -> Result<T::Mask, Fault> {
     let n = floor.len();
     let (means, deviations) = before.split_at(n);
     let (rounding, half) = (T::of(64.0 * n as f64 * T::EPSILON), T::of(0.5));
-    let mut health = Health::<T>::good();
-    for i in 0..n {
-        let now = deviation(&factor[i * n..=i * n + i]);
-        let learnt = now.lt(half * deviations[i]);
+    let learnt = |i: usize, now: T| now.lt(half * deviations[i]);
+    let now = |i: usize| deviation(factor.row(i, i + 1));
+    let raised = |i: usize, floor: T| {
         let left = rounding * (deviations[i] + means[i].abs());
-        floor[i] = T::select(exact & learnt, floor[i].max(left), floor[i]);
-        let vague = now.lt(T::of(T::EPSILON) * means[i].abs()) & floor[i].lt(now);
-        health.note(learnt & vague, i);
+        T::select(exact & learnt(i, now(i)), floor.max(left), floor)
+    };
+    let mut health = Health::<T>::good();
+    for (i, &floor) in floor.iter().enumerate() {
+        let now = now(i);
+        let vague = now.lt(T::of(T::EPSILON) * means[i].abs()) & raised(i, floor).lt(now);
+        health.note(learnt(i, now) & vague, i);
     }
-    match health.failed() {
-        Some(component) => Err(Fault::Indistinct { component }),
-        None => Ok(health.sick),
+    if let Some(component) = health.failed() {
+        return Err(Fault::Indistinct { component });
     }
+    floor.iter_mut().enumerate().for_each(|(i, floor)| *floor = raised(i, *floor));
+    Ok(health.sick)
 }
 
 /// The sum of a row's magnitudes: a standard deviation, or somewhat more.

@@ -1,5 +1,8 @@
 //! The two forms of a filter: the covariance itself, or a root of it.
 
+use crate::kernels::dot;
+use crate::scalar::Real;
+
 /// The form in which a filter carries its covariance.
 pub trait Form: Copy + Default {
     /// Square-root form: the factor is computed by triangularisation and the covariance never formed.
@@ -33,4 +36,15 @@ pub struct Belief<'a, T> {
     pub cov: &'a mut [T],
     /// Another root of P, n × n, that the measurement update is to draw its points from; empty: `factor`.
     pub moved: &'a mut [T],
+}
+
+impl<T: Real> Belief<'_, T> {
+    /// `to` = m + S a.
+    #[inline(always)]
+    pub(crate) fn advanced(&self, a: &[T], to: &mut [T]) {
+        let n = self.mean.len();
+        for (i, (to, &m)) in to.iter_mut().zip(&*self.mean).enumerate() {
+            *to = m + dot(&self.factor[i * n..=i * n + i], a);
+        }
+    }
 }

@@ -89,7 +89,7 @@ impl<X: Method, M, T: Real, B: AsRef<[T]>> Filter<'_, X, M, T, B> {
         (self.array(at, shift), self.array(at + shift, root))
     }
 
-    /// What the last measurement said; empty before the first.
+    /// What the last measurement said; empty before the first and after an error.
     pub fn innovation(&self) -> Innovation<'_, T> {
         let Sizes { states: n, measures: d, .. } = self.layout.sizes;
         let (square, root) = self.back_len();

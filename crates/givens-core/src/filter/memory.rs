@@ -1,5 +1,12 @@
 //! Carving a caller's slice into the arrays of a step.
 
+use crate::scalar::Real;
+
+/// The larger of two lengths.
+pub(crate) const fn larger(a: usize, b: usize) -> usize {
+    if a > b { a } else { b }
+}
+
 /// The next `len` scalars of `memory`.
 #[inline(always)]
 pub(crate) fn take<'a, T>(memory: &mut &'a mut [T], len: usize) -> &'a mut [T] {
@@ -16,5 +23,13 @@ pub(crate) fn put_columns<T: Copy>(to: &mut [T], stride: usize, at: usize, block
     }
     for (row, from) in to.chunks_exact_mut(stride).zip(block.chunks_exact(width)) {
         row[at..at + width].copy_from_slice(from);
+    }
+}
+
+/// Writes the identity into columns `at`… of the n rows of `to`, of length `stride`, which are zero there.
+#[inline(always)]
+pub(crate) fn put_identity<T: Real>(to: &mut [T], stride: usize, at: usize, n: usize) {
+    for (i, row) in to.chunks_exact_mut(stride).take(n).enumerate() {
+        row[at + i] = T::one();
     }
 }

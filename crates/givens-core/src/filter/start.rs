@@ -1,5 +1,6 @@
 //! The memory of a filter, of a length known before it starts.
 
+use super::memory::larger;
 use super::predict::{OneTransition, TimeUpdate, accumulate_scratch};
 use super::update::update_scratch;
 use crate::model::{Observation, Transition, linear_scratch, points_scratch};
@@ -28,7 +29,7 @@ impl Sizes {
     /// The sizes of a model whose noises have as many columns as rows and which overrides no provided method.
     #[must_use]
     pub const fn new(states: usize, measures: usize) -> Self {
-        let longer = if states > measures { states } else { measures };
+        let longer = larger(states, measures);
         let (one, linear) = (points_scratch(states, longer), linear_scratch(states, longer, 0));
         Self {
             states,
@@ -37,7 +38,7 @@ impl Sizes {
             measurement_noise: measures,
             controls: 0,
             parameters: 0,
-            model: if one > linear { one } else { linear },
+            model: larger(one, linear),
         }
     }
 
@@ -122,7 +123,7 @@ impl Layout {
         let kept = shape.table + sizes.controls + sizes.parameters + belief + innovation + back;
         let predict = predict + if smoothing { accumulate_scratch(n) } else { 0 };
         let update = update_scratch(n, d, r, shape, sizes.model, smoothing);
-        let work = if predict > update { predict } else { update };
+        let work = larger(predict, update);
         Self { sizes, shape, smoothing, moved: false, len: kept + work }
     }
 

@@ -124,7 +124,7 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
     /// # Errors
     /// A measurement of the wrong length or that is not finite, a sensor model that is not finite or whose noise is no
     /// covariance, an innovation or posterior covariance that is not positive definite, too little memory. The belief
-    /// is then as predicted.
+    /// is then as before, and the innovation empty.
     pub fn update<H: Observation>(&mut self, sensor: &H, z: &[f64]) -> Result<(), StepError> {
         self.measure(sensor, z, None)
     }
@@ -171,6 +171,7 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
         }
         self.make_room(sensor).map_err(fail)?;
         let (rule, block, moved) = (self.method.rule(), self.method.block(), self.moved);
+        self.present = 0;
         let Parts {
             table,
             u,
@@ -199,9 +200,11 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
             belief.moved = &mut [];
         }
         let measurement = Measurement { z: measured, present };
+        scores.fill(T::zero());
         let (nis, log_likelihood) = scores.split_at_mut(1);
         let (nis, log_likelihood) = (&mut nis[0], &mut log_likelihood[0]);
         let mut innovation = InnovationMut { predicted, nu, factor, white, nis, log_likelihood };
+        let learning = !learnt.turn.is_empty();
         let done = update::<_, _, _, X::Form>(
             &rule,
             block,
@@ -209,17 +212,19 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
             sensor,
             &at,
             measurement,
-            &mut belief,
+            &belief,
             &mut innovation,
-            (!learnt.turn.is_empty()).then_some(&mut learnt),
+            learning,
             scratch,
         );
         let updated = done.map_err(fail)?;
-        if updated.present > 0 {
-            judge(before, belief.factor, updated.exact, floor).map_err(fail)?;
+        let present = updated.present;
+        if let Some(posterior) = updated.posterior {
+            judge(before, posterior.factor, updated.exact, floor).map_err(fail)?;
+            posterior.settle(&mut belief, &mut learnt);
         }
-        self.present = updated.present;
-        self.moved &= updated.present == 0;
+        self.present = present;
+        self.moved &= present == 0;
         self.step += 1;
         Ok(())
     }

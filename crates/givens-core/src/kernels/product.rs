@@ -2,6 +2,12 @@
 
 use crate::scalar::Real;
 
+/// Σ aᵢ bᵢ over the shorter of both.
+#[inline(always)]
+pub fn dot<T: Real>(a: &[T], b: &[T]) -> T {
+    a.iter().zip(b).fold(T::zero(), |sum, (&a, &b)| a.mul_add(b, sum))
+}
+
 /// C + A Bᵀ (or C − A Bᵀ) for `sign` = ±1: C `rows` × `columns`, A `rows` × k and B `columns` × k in rows of length
 /// `stride_a`, `stride_b`.
 #[inline(always)]
@@ -20,8 +26,7 @@ pub fn add_outer<T: Real>(
         let x = &a[i * stride_a..i * stride_a + k];
         for j in 0..columns {
             let y = &b[j * stride_b..j * stride_b + k];
-            let dot = x.iter().zip(y).fold(T::zero(), |sum, (&x, &y)| x.mul_add(y, sum));
-            c[i * columns + j] += T::of(sign) * dot;
+            c[i * columns + j] += T::of(sign) * dot(x, y);
         }
     }
 }
@@ -32,19 +37,18 @@ pub fn square<T: Real>(p: &mut [T], n: usize, a: &[T], stride: usize, k: usize) 
     for i in 0..n {
         for j in 0..=i {
             let (x, y) = (&a[i * stride..i * stride + k], &a[j * stride..j * stride + k]);
-            let dot = x.iter().zip(y).fold(T::zero(), |sum, (&x, &y)| x.mul_add(y, sum));
-            p[i * n + j] = dot;
-            p[j * n + i] = dot;
+            let product = dot(x, y);
+            (p[i * n + j], p[j * n + i]) = (product, product);
         }
     }
 }
 
-/// A S in place, A `rows` × n in rows of length n, S lower triangular n × n.
+/// A S in place, A `rows` × n in rows of length n, S lower triangular n × n in rows of length `stride`.
 #[inline(always)]
-pub fn product_lower<T: Real>(a: &mut [T], rows: usize, n: usize, s: &[T]) {
+pub fn product_lower<T: Real>(a: &mut [T], rows: usize, n: usize, s: &[T], stride: usize) {
     for row in a.chunks_exact_mut(n.max(1)).take(rows) {
         for j in 0..n {
-            row[j] = (j..n).fold(T::zero(), |sum, k| row[k].mul_add(s[k * n + j], sum));
+            row[j] = (j..n).fold(T::zero(), |sum, k| row[k].mul_add(s[k * stride + j], sum));
         }
     }
 }

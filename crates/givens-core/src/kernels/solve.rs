@@ -17,6 +17,28 @@ pub fn solve_lower<T: Real>(l: &[T], stride: usize, b: &mut [T]) {
     }
 }
 
+/// L⁻¹ B in place, B of rows of length `columns`, L lower triangular in rows of length `stride`.
+#[inline(always)]
+pub fn solve_lower_rows<T: Real>(l: &[T], stride: usize, b: &mut [T], columns: usize) {
+    if columns == 0 {
+        return;
+    }
+    for i in 0..b.len() / columns {
+        let (above, row) = b.split_at_mut(i * columns);
+        let row = &mut row[..columns];
+        let l = &l[i * stride..];
+        for (&x, above) in l.iter().zip(above.chunks_exact(columns)) {
+            for (y, &z) in row.iter_mut().zip(above) {
+                *y = (-x).mul_add(z, *y);
+            }
+        }
+        let inverse = inverse_or_zero(l[i]);
+        for y in row {
+            *y = *y * inverse;
+        }
+    }
+}
+
 /// B / Lᵀ = B L⁻ᵀ in place, B `rows` × n, L lower triangular n × n in rows of length `stride`.
 #[inline(always)]
 pub fn divide_lower_transposed<T: Real>(b: &mut [T], rows: usize, n: usize, l: &[T], stride: usize) {

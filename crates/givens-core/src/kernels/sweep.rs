@@ -5,15 +5,17 @@ use crate::scalar::{Mask, Real};
 
 /// Triangularises [L D; 0 S] in place, L d × d and S n × n lower triangular, D d × n.
 ///
-/// The square matrix `a` of d + n rows of that length becomes [T11 0; T21 T22], lower triangular, with diagonal
-/// ≥ 0 if those of L and S are. The rotations do not depend on S; with S = I, what stands below is the rotation itself. Every row of D is rotated into its pivot from the last column to the first, which
-/// leaves S triangular throughout; all cosines of a row come from one running sum of squares. It is the
-/// measurement update (2010 eq 36) and the smoothing step (2011 Table 3). A row that the earlier ones leave
-/// at most (d + n) ε of is zero; its pivot and column are then zero, as in [`tria`](super::tria()). `scratch` has length n.
+/// The matrix `a`, in rows of length d + n, becomes [T11 0; T21 T22], lower triangular, with diagonal ≥ 0 if those of L
+/// and S are. Any number of S may stand below one another: the rotations do not depend on them, and S = I becomes the
+/// rotation itself. Every row of D is rotated into its pivot from the last column to the first, which leaves S
+/// triangular throughout; all cosines of a row come from one running sum of squares. It is the measurement update
+/// (2010 eq 36). A row that the earlier ones leave at most (d + n) ε of is zero; its pivot and column are then zero, as
+/// in [`tria`](super::tria()). `scratch` has length n.
 #[inline(always)]
 pub fn sweep<T: Real>(a: &mut [T], d: usize, n: usize, scratch: &mut [T]) -> Health<T> {
     let size = d + n;
-    debug_assert!(a.len() >= size * size && scratch.len() >= n);
+    let rows = a.len() / size.max(1);
+    debug_assert!((rows - d) % n.max(1) == 0 && scratch.len() >= n);
     let norms = &mut scratch[..n];
     let mut health = Health::good();
     let bound = T::of(size as f64 * T::EPSILON);
@@ -40,11 +42,15 @@ pub fn sweep<T: Real>(a: &mut [T], d: usize, n: usize, scratch: &mut [T]) -> Hea
             let (c, s) = (before / after, z / after);
             let (c, s) = (T::select(still, T::one(), c), T::select(still, T::zero(), s));
             before = T::select(still, before, after);
-            // the rows of D still to come, and the rows of S that column j reaches
-            for i in (q + 1..d).chain(d + j..size) {
+            let mut turn = |i: usize| {
                 let (x, y) = (a[i * size + d + j], a[i * size + q]);
                 a[i * size + d + j] = c * x - s * y;
                 a[i * size + q] = s.mul_add(x, c * y);
+            };
+            // the rows of D still to come, and the rows of each S that column j reaches
+            (q + 1..d).for_each(&mut turn);
+            for top in (d..rows).step_by(n) {
+                (top + j..top + n).for_each(&mut turn);
             }
             a[q * size + d + j] = T::zero();
         }

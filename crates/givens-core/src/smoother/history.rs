@@ -2,7 +2,7 @@
 
 use super::back::back_scratch;
 use super::rotated::rotated_len;
-use crate::filter::memory::take;
+use crate::filter::memory::{larger, take};
 use crate::filter::predict::multiply;
 use crate::filter::{Fault, Filter, Form, Grow, Over, StepError};
 use crate::scalar::Real;
@@ -36,7 +36,7 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
     pub const fn memory_len(states: usize, capacity: usize) -> usize {
         let belief = states + 2 * states * states;
         let (back, rotated) = (back_scratch(states), rotated_len(states));
-        capacity * Self::record_len(states) + belief + if back > rotated { back } else { rotated }
+        capacity * Self::record_len(states) + belief + larger(back, rotated)
     }
 
     /// A history for filters of n `states`; it holds as many records as `memory` has room for.
@@ -67,10 +67,14 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
 
     /// Whether a belief of n `states` in this form goes with these records, and these into the memory.
     pub(super) fn room(&mut self, states: usize, square_root: bool) -> Result<(), Fault> {
+        if self.square_root != square_root {
+            return Err(Fault::Mismatch {
+                why: "the history is for filters of the other form (covariance, square root)",
+            });
+        }
         let fixed = Self::memory_len(self.states, 0);
         for (of, expected, found) in [
             ("the history's states", self.states, states),
-            ("the roots of the history's records", usize::from(self.square_root), usize::from(square_root)),
             ("the history's memory", fixed, fixed.min(self.memory.as_mut().len())),
         ] {
             if expected != found {

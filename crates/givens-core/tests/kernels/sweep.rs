@@ -17,10 +17,10 @@ fn block(l: &Matrix, between: &Matrix, s: &Matrix) -> Matrix {
 }
 
 fn swept<T: Real>(a: &Matrix, d: usize) -> Matrix {
-    let size = a.rows;
+    let size = a.columns;
     let (mut memory, mut scratch) = (a.memory::<T>(size, 0.0), vec![T::of(f64::NAN); size - d]);
     assert!(sweep(&mut memory, d, size - d, &mut scratch).failed().is_none());
-    Matrix::of(size, size, &memory, size)
+    Matrix::of(a.rows, size, &memory, size)
 }
 
 fn triangular<T: Real>(a: &Matrix) -> Matrix {
@@ -62,5 +62,25 @@ proptest! {
         let a = block(&l, &between, &s);
         agree::<f64>(&a, d)?;
         agree::<f32>(&a, d)?;
+    }
+
+    #[test]
+    fn what_stands_below_is_turned_alike((l, between, s) in parts()) {
+        let (d, n) = (l.rows, s.rows);
+        let a = block(&l, &between, &s);
+        let alone = swept::<f64>(&a, d);
+        let stacked = Matrix::new(d + 2 * n, d + n, |i, j| match i.checked_sub(d + n) {
+            None => a.at(i, j),
+            Some(i) => f64::from(j == d + i),
+        });
+        let both = swept::<f64>(&stacked, d);
+        for (i, j) in (0..d + n).flat_map(|i| (0..d + n).map(move |j| (i, j))) {
+            prop_assert_eq!(both.at(i, j), alone.at(i, j));
+        }
+        // [T21 T22] = S [A B], what stands below with I in place of S
+        for (i, j) in (0..n).flat_map(|i| (0..d + n).map(move |j| (i, j))) {
+            let product: f64 = (0..n).map(|k| s.at(i, k) * both.at(d + n + k, j)).sum();
+            prop_assert!((both.at(d + i, j) - product).abs() < 1e-13 * s.norm(i).max(1e-300));
+        }
     }
 }

@@ -3,11 +3,10 @@
 use super::continuous::{Continuous, check_steps};
 use super::gain::Backward;
 use super::noise::{Stacked, check_spread, diffusion_rate, finish, rate_scratch, stacked_scratch};
-use super::transition::larger;
 use super::{Given, Plan, Stopped, TimeUpdate};
 use crate::filter::error::Fault;
 use crate::filter::form::{Belief, Form};
-use crate::filter::memory::take;
+use crate::filter::memory::{larger, take};
 use crate::filter::start::Sizes;
 use crate::model::{At, Expanded, Map, Sde};
 use crate::ode::{Steps, Work};

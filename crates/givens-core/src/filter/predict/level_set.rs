@@ -6,11 +6,11 @@ use super::gain::Backward;
 use super::integrate::{Lengths, integrate, integrate_scratch};
 use super::moments::{Moments, moments_len, moments_scratch};
 use super::noise::rate_scratch;
-use super::transition::larger;
 use super::velocity::{ByVelocity, Velocity, by_velocity_scratch};
 use super::{Given, Plan, Stopped, TimeUpdate};
 use crate::filter::error::Fault;
 use crate::filter::form::{Belief, Form};
+use crate::filter::memory::larger;
 use crate::filter::start::Sizes;
 use crate::model::{At, Sde};
 use crate::ode::{Integrator, Work};
@@ -55,6 +55,10 @@ pub struct LevelSet {
 impl<M: Sde> TimeUpdate<M> for LevelSet {
     fn check(&self, model: &M) -> Result<(), Fault> {
         check_integrator(&self.integrator)?;
+        if (self.gauge, self.root) == (Gauge::Triangular, Root::Moved) {
+            let why = "gauge = triangular leaves no other root than the lower one; root = moved is for gauge = free";
+            return Err(Fault::Mismatch { why });
+        }
         Continuous(model).additive()
     }
 

@@ -113,7 +113,7 @@ pub trait TimeUpdate<M>: Copy {
     }
 
     /// Moves `belief` over one step; with `back`, also what a smoother needs to come back over it. After a fault the
-    /// belief is as before, or that of the time reached.
+    /// belief is as before.
     ///
     /// # Errors
     /// Why the step could not be done.

@@ -3,10 +3,9 @@
 
 use super::gain::Backward;
 use super::settle::{Moved, settle, settle_scratch};
-use super::transition::larger;
 use crate::filter::error::{Fault, Quantity};
 use crate::filter::form::{Belief, Form};
-use crate::filter::memory::take;
+use crate::filter::memory::{larger, take};
 use crate::model::{At, Sde, Varies};
 use crate::rule::{Shape, Spread, spread_scratch};
 use crate::scalar::{Dual2, Mask, Real, as_duals};

@@ -5,7 +5,7 @@ use super::settle::{Moved, settle, settle_scratch};
 use super::{Given, Plan, Stopped, TimeUpdate, lanes};
 use crate::filter::error::{Fault, Matrix, Quantity};
 use crate::filter::form::{Belief, Form};
-use crate::filter::memory::{put_columns, take};
+use crate::filter::memory::{larger, put_columns, take};
 use crate::filter::start::Sizes;
 use crate::model::{Moving, Transition};
 use crate::ode::Work;
@@ -27,11 +27,6 @@ impl OneTransition {
             + n * q
             + larger(spread_scratch(shape, n, n, sizes.model), settle_scratch(n, stride, smoothing))
     }
-}
-
-/// The larger of two lengths.
-pub(super) const fn larger(a: usize, b: usize) -> usize {
-    if a > b { a } else { b }
 }
 
 impl<M: Transition> TimeUpdate<M> for OneTransition {

@@ -4,16 +4,19 @@ mod covariance;
 mod innovation;
 mod joint;
 mod learnt;
+mod posterior;
 mod sensed;
 mod separate;
+mod whitened;
 
 pub use innovation::Innovation;
 pub(crate) use innovation::InnovationMut;
 pub use learnt::Learnt;
-use learnt::{turned, turned_scratch};
+pub(crate) use posterior::{Posterior, Rows};
 
 use super::error::{Fault, Quantity};
 use super::form::{Belief, Form};
+use crate::filter::memory::larger;
 use crate::model::{At, Observation};
 use crate::rule::{Rule, Shape, spread_scratch};
 use crate::scalar::{Mask, Real};
@@ -45,19 +48,17 @@ pub(crate) const fn update_scratch(
     map: usize,
     smoothing: bool,
 ) -> usize {
-    let joint = joint::joint_scratch(n, d, shape.plus + r);
-    let separate = separate::separate_scratch(n, d, n + shape.plus + r);
-    let covariance = covariance::covariance_scratch(n, d, n + shape.plus + r, shape.minus);
-    let mut block = if joint > separate { joint } else { separate };
-    block = if covariance > block { covariance } else { block };
+    let columns = n + shape.plus + r;
+    let joint = joint::joint_scratch(n, d, shape.plus + r, smoothing);
+    let separate = separate::separate_scratch(n, d, columns, shape.minus);
+    let covariance = covariance::covariance_scratch(n, d, columns, shape.minus);
     let spread = spread_scratch(shape, n, d, map);
-    let rotation = if smoothing { turned_scratch(n, d, shape.plus + r) } else { 0 };
-    sense_scratch(n, d, r, shape) + rotation + if block > spread { block } else { spread }
+    let of_block = larger(larger(joint, separate), covariance);
+    sense_scratch(n, d, r, shape) + larger(of_block, spread)
 }
 
-/// What an update did.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Updated<T: Real> {
+/// What an update found. Nothing is changed yet but the innovation.
+pub(crate) struct Updated<'a, T: Real> {
     /// Components that were there.
     pub present: usize,
     /// The lanes in which one of them had no more noise than rounding.
@@ -65,50 +66,39 @@ pub(crate) struct Updated<T: Real> {
     /// The lanes that a kernel could not serve.
     #[allow(dead_code, reason = "for packs")]
     pub sick: T::Mask,
+    /// What is believed now; none without any component.
+    pub posterior: Option<Posterior<'a, T>>,
 }
 
-/// Updates `belief` by a measurement, and writes the innovation. With no component there,
-/// or after a fault, the belief is as before (but for a mean that has overflowed).
+/// What `belief` becomes by a measurement; writes the innovation. With `learning`, also what a smoother needs.
 #[inline(always)]
-pub(crate) fn update<T: Real, H: Observation, R: Rule, F: Form>(
+pub(crate) fn update<'a, T: Real, H: Observation, R: Rule, F: Form>(
     rule: &R,
     block: Block,
     table: &[T],
     h: &H,
     at: &At<T>,
     measurement: Measurement<T>,
-    belief: &mut Belief<T>,
+    belief: &Belief<T>,
     innovation: &mut InnovationMut<T>,
-    learnt: Option<&mut Learnt<T>>,
-    mut scratch: &mut [T],
-) -> Result<Updated<T>, Fault> {
-    let (sensed, mut sick) = sense(rule, table, h, at, &measurement, belief, innovation, &mut scratch)?;
-    if sensed.d == 0 {
+    learning: bool,
+    mut scratch: &'a mut [T],
+) -> Result<Updated<'a, T>, Fault> {
+    let (sensed, sick) = sense(rule, table, h, at, &measurement, belief, innovation, &mut scratch)?;
+    let Sensed { d: present, exact, .. } = sensed;
+    if present == 0 {
         (*innovation.nis, *innovation.log_likelihood) = (T::zero(), T::zero());
-        return Ok(Updated { present: 0, exact: T::Mask::splat(false), sick });
+        return Ok(Updated { present, exact: T::Mask::splat(false), sick, posterior: None });
     }
-    let (n, in_whole) = (belief.mean.len(), |fault| measurement.in_whole(fault));
-    let rotation = match &learnt {
-        Some(_) => {
-            let (rotation, more) = turned(&sensed, n, belief.factor, &mut scratch).map_err(in_whole)?;
-            sick = sick | more;
-            Some(rotation)
-        }
-        None => None,
-    };
-    let more = match (F::SQUARE_ROOT, block) {
+    let done = match (F::SQUARE_ROOT, block) {
         (false, _) => covariance::update(&sensed, belief, innovation, scratch),
-        (true, Block::Joint) => joint::update(&sensed, belief, innovation, scratch),
-        (true, Block::Separate) => separate::update(&sensed, belief, innovation, scratch),
+        (true, Block::Joint) => joint::update(&sensed, belief, innovation, learning, scratch),
+        (true, Block::Separate) => separate::update(&sensed, belief, innovation, learning, scratch),
     };
-    sick = sick | more.map_err(in_whole)?;
-    if let (Some(learnt), Some(rotation)) = (learnt, rotation) {
-        rotation.settle(belief.factor);
-        learnt.add(rotation.block, sensed.d, &innovation.white[..sensed.d], scratch);
-    }
-    if let Some(component) = belief.mean.iter().position(|m| (!m.finite()).all()) {
+    let (posterior, more) = done.map_err(|fault| measurement.in_whole(fault))?;
+    if let Some(component) = posterior.mean.iter().position(|m| (!m.finite()).all()) {
         return Err(Fault::NotFinite { quantity: Quantity::Estimate, component });
     }
-    innovation.score(sensed.d);
-    Ok(Updated { present: sensed.d, exact: sensed.exact, sick })
+    innovation.score(present);
+    Ok(Updated { present, exact, sick: sick | more, posterior: Some(posterior) })
 }

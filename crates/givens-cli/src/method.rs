@@ -43,6 +43,11 @@ pub fn chosen(model: &Model, args: &MethodArgs) -> Result<Choice, Stop> {
 /// KEY=VALUE.
 pub fn pair<'a>(option: &str, text: &'a str) -> Result<(&'a str, &'a str), Stop> {
     match text.split_once('=') {
+        Some((_, value)) if value.contains('=') => {
+            let each: Vec<_> = text.split(',').map(|one| format!("{option} {}", one.trim())).collect();
+            Err(Stop::input(format!("{option} {text}: one at a time"))
+                .help(format!("write {}", each.join(" "))))
+        }
         Some((key, value)) if !key.trim().is_empty() && !value.trim().is_empty() => {
             Ok((key.trim(), value.trim()))
         }

@@ -18,7 +18,12 @@ fn main() {
             let (others, small) = (worst(false), worst(true));
             [others.filter(), others.smoothed, small.filter().max(small.smoothed)]
         });
-        let cells = [0, 1, 2].map(|of| columns.map(|column| format!("{:.0e}", column[of])).join(" | "));
+        let cells = [0, 1, 2].map(|of| columns.map(|column| shown(column[of])).join(" | "));
         println!("| `{name}` | {} |", cells.join(" | "));
     }
+}
+
+/// Zero is what a scenario without such a rule reaches.
+fn shown(error: f64) -> String {
+    if error == 0.0 { "–".to_owned() } else { format!("{error:.0e}") }
 }

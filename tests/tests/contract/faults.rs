@@ -1,7 +1,9 @@
 //! A step that fails says why, and leaves the belief as it was.
 
 use givens::filter::{Cdkf, Ckf, Ckf5, Ekf, Qkf, SrCdkf, SrCkf, SrCkf5, SrEkf, SrQkf, SrUkf, Ukf};
-use givens::filter::{Fault, Filter, Gaussian, Matrix, Method, Over, Prior, Quantity, Sizes, StepError};
+use givens::filter::{
+    Fault, Filter, Form, Gaussian, Matrix, Method, Over, Prior, Quantity, Sizes, StepError,
+};
 use givens::model::{At, Noise, Observation, Transition};
 use givens::rule::Rule;
 use givens::scalar::Real;
@@ -214,6 +216,54 @@ fn a_smoother_refuses_what_does_not_fit_it() {
     let mut point = FixedPoint::begin(&mut filter, vec![0.0; len]).unwrap();
     length(point.predict(&mut without, 1.0).unwrap_err().fault);
     let mut other = start(Ckf::default(), &model, true);
-    length(point.predict(&mut other, 1.0).unwrap_err().fault);
-    length(point.update(&other).unwrap_err().fault);
+    form(point.predict(&mut other, 1.0).unwrap_err().fault);
+    form(point.update(&other).unwrap_err().fault);
+}
+
+/// A smoother that has missed something of its filter says so, and one that has not goes on.
+fn misses_nothing<X: Over<Model>>(method: X) {
+    let model = Model(Wrong::Nothing);
+    let square_root = X::Form::SQUARE_ROOT;
+    let missed = |fault: Fault| assert!(matches!(fault, Fault::Mismatch { .. }), "{fault}");
+    let history = || History::new(2, square_root, vec![0.0; History::<f64, Vec<f64>>::memory_len(2, 5)]);
+    let point =
+        |filter: &mut _| FixedPoint::begin(filter, vec![0.0; FixedPoint::<f64, Vec<f64>>::memory_len(2)]);
+
+    let (mut filter, mut follower) = (start(method, &model, true), history());
+    follower.predict(&mut filter, 1.0).unwrap();
+    filter.update(&model, &[0.4, 0.1]).unwrap();
+    assert!(follower.predict(&mut filter, 0.5).is_err(), "the past");
+    follower.predict(&mut filter, 2.0).unwrap();
+    filter.predict(3.0).unwrap();
+    missed(follower.predict(&mut filter, 4.0).unwrap_err().fault);
+    missed(follower.smooth(&filter, 2, |_, _| {}).unwrap_err().fault);
+    missed(follower.smooth_means(&filter, 2, |_, _| {}).unwrap_err().fault);
+
+    let (mut filter, mut follower) = (start(method, &model, true), history());
+    follower.predict(&mut filter, 1.0).unwrap();
+    let mut other = point(&mut filter).unwrap();
+    missed(follower.predict(&mut filter, 2.0).unwrap_err().fault);
+    other.predict(&mut filter, 2.0).unwrap();
+    filter.predict(3.0).unwrap();
+    missed(other.predict(&mut filter, 4.0).unwrap_err().fault);
+    missed(other.update(&filter).unwrap_err().fault);
+
+    // an update that was not asked for is not lost
+    let (mut asked, mut silent) = (start(method, &model, true), start(method, &model, true));
+    let mut points = [point(&mut asked).unwrap(), point(&mut silent).unwrap()];
+    for t in [1.0, 2.0, 3.0] {
+        points[0].predict(&mut asked, t).unwrap();
+        points[1].predict(&mut silent, t).unwrap();
+        asked.update(&model, &[0.4, 0.1]).unwrap();
+        silent.update(&model, &[0.4, 0.1]).unwrap();
+        points[0].update(&asked).unwrap();
+    }
+    points[1].update(&silent).unwrap();
+    assert_eq!((points[0].mean(), points[0].cov()), (points[1].mean(), points[1].cov()));
+}
+
+#[test]
+fn a_smoother_that_has_missed_a_step_says_so() {
+    misses_nothing(Ckf::default());
+    misses_nothing(SrCkf::default());
 }

@@ -150,6 +150,12 @@ fn wrong_parameters_and_lists() {
                 &["--set kappa=two: must be a number"],
             ),
             (
+                "several",
+                NONE,
+                "filter model.toml data.csv -o out.csv --set kappa=2,update=joint",
+                &["--set kappa=2,update=joint: one at a time", "write --set kappa=2 --set update=joint"],
+            ),
+            (
                 "param",
                 NONE,
                 "filter model.toml data.csv -o out.csv --param p=1",

@@ -109,6 +109,11 @@ impl<X: Method, M, T: Real, B: AsRef<[T]>> Filter<'_, X, M, T, B> {
         }
     }
 
+    /// How often it was predicted, or a smoother has taken what it has learnt.
+    pub(crate) fn moves(&self) -> usize {
+        self.moves
+    }
+
     /// The shape of the filter's rule, for [`Sizes::with_sensor`].
     pub fn shape(&self) -> Shape {
         self.layout.shape

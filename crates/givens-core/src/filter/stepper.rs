@@ -41,6 +41,8 @@ pub struct Filter<'m, X, M, T, B> {
     pub(super) work: Work,
     /// The last step was a prediction that left a root of its own for the update.
     pub(super) moved: bool,
+    /// How often it was predicted, or what it has learnt was taken: a smoother that has missed one must not go on.
+    pub(super) moves: usize,
     pub(super) memory: B,
     scalar: PhantomData<T>,
 }
@@ -201,6 +203,7 @@ impl<'m, X: Over<M>, M, T: Real, B: AsMut<[T]>> Filter<'m, X, M, T, B> {
             controlled,
             work,
             moved: false,
+            moves: 0,
             memory,
             scalar,
         })

@@ -79,6 +79,7 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
     pub(crate) fn forget_learnt(&mut self) {
         let n = self.layout.sizes.states;
         self.parts().learnt.reset(n);
+        self.moves += 1;
     }
 
     fn one_step(&mut self, t: f64, dt: f64, chained: bool) -> Result<(), StepError> {
@@ -220,7 +221,10 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
         let updated = done.map_err(fail)?;
         let present = updated.present;
         if let Some(posterior) = updated.posterior {
-            judge(before, posterior.factor, updated.exact, floor).map_err(fail)?;
+            if let Err(fault) = judge(before, posterior.factor, updated.exact, floor) {
+                scores.fill(T::zero());
+                return Err(fail(fault));
+            }
             posterior.settle(&mut belief, &mut learnt);
         }
         self.present = present;

@@ -34,7 +34,7 @@ pub fn solve_lower_rows<T: Real>(l: &[T], stride: usize, b: &mut [T], columns: u
         }
         let inverse = inverse_or_zero(l[i]);
         for y in row {
-            *y = *y * inverse;
+            *y *= inverse;
         }
     }
 }

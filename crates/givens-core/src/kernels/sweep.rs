@@ -15,7 +15,7 @@ use crate::scalar::{Mask, Real};
 pub fn sweep<T: Real>(a: &mut [T], d: usize, n: usize, scratch: &mut [T]) -> Health<T> {
     let size = d + n;
     let rows = a.len() / size.max(1);
-    debug_assert!((rows - d) % n.max(1) == 0 && scratch.len() >= n);
+    debug_assert!((rows - d).is_multiple_of(n.max(1)) && scratch.len() >= n);
     let norms = &mut scratch[..n];
     let mut health = Health::good();
     let bound = T::of(size as f64 * T::EPSILON);

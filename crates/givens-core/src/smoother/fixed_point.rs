@@ -1,7 +1,7 @@
 //! The fixed-point smoother: one past state, better known with every measurement (Särkkä & Hartikainen 2010).
 
 use super::back::symmetrise;
-use super::history::{BROKEN, for_smoothing};
+use super::history::{OTHER_FORM, UNFOLLOWED, for_smoothing};
 use crate::filter::memory::{put_columns, take};
 use crate::filter::predict::multiply;
 use crate::filter::{Fault, Filter, Form, Grow, Learnt, Over, StepError};
@@ -17,8 +17,8 @@ use core::marker::PhantomData;
 pub struct FixedPoint<T, B> {
     states: usize,
     square_root: bool,
-    /// A prediction has failed within its gap.
-    broken: bool,
+    /// What [`Filter::moves`] was when this last took part: since then no move may have been missed.
+    seen: usize,
     memory: B,
     scalar: PhantomData<T>,
 }
@@ -59,8 +59,8 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> FixedPoint<T, B> {
         3 * states + 7 * states * states
     }
 
-    /// Begins at the filter's present time, with its belief; from then on this alone predicts with the filter, and no
-    /// [`History`](super::History) follows it. It works in at least [`memory_len`](Self::memory_len) scalars. The
+    /// Begins at the filter's present time, with its belief; from then on this alone predicts with the filter, and a
+    /// [`History`](super::History) that has followed it until now refuses it. It works in at least [`memory_len`](Self::memory_len) scalars. The
     /// filter must have been started for smoothing.
     ///
     /// # Errors
@@ -83,7 +83,8 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> FixedPoint<T, B> {
         parts.conditional.fill(T::zero());
         Learnt { shift: parts.shift, turn: parts.chain }.reset(n);
         filter.forget_learnt();
-        Ok(Self { states: n, square_root: X::Form::SQUARE_ROOT, broken: false, memory, scalar: PhantomData })
+        let seen = filter.moves();
+        Ok(Self { states: n, square_root: X::Form::SQUARE_ROOT, seen, memory, scalar: PhantomData })
     }
 
     /// Whether the filter goes with the one that this was begun with.
@@ -93,11 +94,9 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> FixedPoint<T, B> {
             return Err(filter.fail(Fault::Length { of: "the filter's state", expected: n, found }));
         }
         if self.square_root != X::Form::SQUARE_ROOT {
-            let cov = |square_root: bool| if square_root { 0 } else { n * n };
-            let (expected, found) = (cov(self.square_root), cov(X::Form::SQUARE_ROOT));
-            return Err(filter.fail(Fault::Length { of: "the filter's own covariance", expected, found }));
+            return Err(filter.fail(OTHER_FORM));
         }
-        let whole = if self.broken { Err(BROKEN) } else { Ok(()) };
+        let whole = if self.seen == filter.moves() { Ok(()) } else { Err(UNFOLLOWED) };
         for_smoothing(filter).and(whole).map_err(|fault| filter.fail(fault))
     }
 
@@ -119,9 +118,16 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> FixedPoint<T, B> {
             multiply(parts.product, n, parts.chain, turn);
             parts.chain.copy_from_slice(parts.product);
             filter.forget_learnt();
+            self.seen = filter.moves();
+        } else {
+            self.update(filter)?;
         }
         let start = filter.time();
-        filter.predict(t).inspect_err(|_| self.broken = filter.time() > start)?;
+        let done = filter.predict(t);
+        if done.is_ok() || filter.time() == start {
+            self.seen = filter.moves();
+        }
+        done?;
         let parts = parts(n, self.memory.as_mut());
         let (gain, conditional) = filter.backward();
         if X::Form::SQUARE_ROOT {
@@ -139,7 +145,7 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> FixedPoint<T, B> {
         Ok(())
     }
 
-    /// Takes in what the filter has learnt since the last prediction; call it after the updates of one time.
+    /// Takes in what the filter has learnt since the last prediction, for [`mean`](Self::mean) and [`cov`](Self::cov).
     ///
     /// # Errors
     /// A filter of another length or form than the one that this was begun with.

@@ -18,8 +18,8 @@ pub struct History<T, B> {
     pub(super) capacity: usize,
     pub(super) oldest: usize,
     pub(super) count: usize,
-    /// A prediction has failed within its gap: the records no longer lead to the filter's belief.
-    pub(super) broken: bool,
+    /// What [`Filter::moves`] was when the newest record was made or completed: since then none may have been missed.
+    pub(super) seen: usize,
     pub(super) memory: B,
     pub(super) scalar: PhantomData<T>,
 }
@@ -43,16 +43,7 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
     pub fn new(states: usize, square_root: bool, mut memory: B) -> Self {
         let room = memory.as_mut().len().saturating_sub(Self::memory_len(states, 0));
         let capacity = room / Self::record_len(states).max(1);
-        Self {
-            states,
-            square_root,
-            capacity,
-            oldest: 0,
-            count: 0,
-            broken: false,
-            memory,
-            scalar: PhantomData,
-        }
+        Self { states, square_root, capacity, oldest: 0, count: 0, seen: 0, memory, scalar: PhantomData }
     }
 
     /// Records held.
@@ -68,9 +59,7 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
     /// Whether a belief of n `states` in this form goes with these records, and these into the memory.
     pub(super) fn room(&mut self, states: usize, square_root: bool) -> Result<(), Fault> {
         if self.square_root != square_root {
-            return Err(Fault::Mismatch {
-                why: "the history is for filters of the other form (covariance, square root)",
-            });
+            return Err(OTHER_FORM);
         }
         let fixed = Self::memory_len(self.states, 0);
         for (of, expected, found) in [
@@ -90,7 +79,7 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
         filter: &Filter<'_, X, M, T, C>,
     ) -> Result<(), StepError> {
         let room = self.room(filter.mean().len(), X::Form::SQUARE_ROOT);
-        let whole = if self.broken { Err(BROKEN) } else { Ok(()) };
+        let whole = if self.count > 0 && self.seen != filter.moves() { Err(UNFOLLOWED) } else { Ok(()) };
         room.and_then(|()| for_smoothing(filter)).and(whole).map_err(|fault| filter.fail(fault))
     }
 
@@ -106,8 +95,7 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
         if self.capacity == 0 {
             return filter.predict(t);
         }
-        self.fits(filter)?;
-        self.close(filter);
+        self.close(filter)?;
         // the belief before waits in memory of the way back: in a full ring, its record is still the oldest one's
         let n = self.states;
         let (mean, rest) = self.carve().1.split_at_mut(n);
@@ -118,7 +106,11 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
             filter.write_cov(&mut rest[..n * n]);
         }
         let start = filter.time();
-        filter.predict(t).inspect_err(|_| self.broken = filter.time() > start)?;
+        let done = filter.predict(t);
+        if done.is_ok() || filter.time() == start {
+            self.seen = filter.moves();
+        }
+        done?;
         let slot = (self.oldest + self.count) % self.capacity;
         let (records, belief) = self.memory.as_mut().split_at_mut(self.capacity * Self::record_len(n));
         let mut record = &mut records[slot * Self::record_len(n)..][..Self::record_len(n)];
@@ -142,10 +134,17 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
 
     /// Completes the newest record, in square-root form, by what the updates at its end have learnt. [`predict`](Self::predict)
     /// does so first; by hand it is needed before [`smooth_on`](Self::smooth_on) alone.
-    pub fn close<X: Over<M>, M, C: Grow<T>>(&mut self, filter: &mut Filter<'_, X, M, T, C>) {
+    ///
+    /// # Errors
+    /// A filter that does not go with this history.
+    pub fn close<X: Over<M>, M, C: Grow<T>>(
+        &mut self,
+        filter: &mut Filter<'_, X, M, T, C>,
+    ) -> Result<(), StepError> {
+        self.fits(filter)?;
         let (n, len) = (self.states, Self::record_len(self.states));
         if self.count == 0 || !self.square_root {
-            return;
+            return Ok(());
         }
         let slot = (self.oldest + self.count - 1) % self.capacity;
         let (records, belief) = self.memory.as_mut().split_at_mut(self.capacity * len);
@@ -159,6 +158,8 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
         multiply(product, n, gain, turn);
         gain.copy_from_slice(product);
         filter.forget_learnt();
+        self.seen = filter.moves();
+        Ok(())
     }
 
     /// The records, and memory beside them.
@@ -169,9 +170,13 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
     }
 }
 
-/// The filter has moved and no record says how.
-pub(super) const BROKEN: Fault = Fault::Mismatch {
-    why: "a prediction has failed within its gap, and the filter has moved without a record; start anew from its belief",
+/// A smoother's memory is laid out for one form.
+pub(super) const OTHER_FORM: Fault =
+    Fault::Mismatch { why: "the smoother was made for filters of the other form (covariance, square root)" };
+
+/// The filter has moved, or another smoother has taken what it has learnt, and no record says how.
+pub(super) const UNFOLLOWED: Fault = Fault::Mismatch {
+    why: "the filter was predicted without its smoother, or a prediction has failed within its gap, or another smoother follows it; start anew from its belief",
 };
 
 /// A filter must leave what its smoother needs.

@@ -55,7 +55,7 @@ impl<'t> Between<'t> {
                 history.predict(&mut filter, row.time)?;
                 filter.set_controls(row.u)?;
                 filter.update_present(sensors, row.z, present)?;
-                history.close(&mut filter);
+                history.close(&mut filter)?;
                 self.sides.push(Side { history, index: self.out.len() - 1, row: finished.len() });
             }
         }

@@ -1,15 +1,18 @@
 //! The update in covariance form: P = P⁻ − W P_zz Wᵀ (2009 eq 43–51; 2011 Table 1).
 
-use super::joint::pivots;
 use super::posterior::{Posterior, Rows};
-use super::whitened::{Whitened, leftover};
+use super::square_root::pivots;
 use super::{InnovationMut, Sensed};
 use crate::filter::error::{Fault, Matrix};
 use crate::filter::form::Belief;
 use crate::filter::memory::{larger, put_columns, take};
 use crate::filter::predict::lanes;
-use crate::kernels::{add_outer, cholesky_scaled, dot, square};
-use crate::scalar::Real;
+use crate::kernels::{add_outer, cholesky_scaled, dot, solve_lower_rows, square};
+use crate::scalar::{Mask, Real};
+
+/// A pivot of P_zz, squared, of less than this many ε of its diagonal is known too badly to be divided by: the mean would
+/// be wrong by more than a thousandth of its standard deviation.
+const LEAST: f64 = 1024.0;
 
 /// Scalars of scratch of [`update`], for `columns` columns of Z and noise and `lost` negative ones.
 pub(super) const fn covariance_scratch(n: usize, d: usize, columns: usize, lost: usize) -> usize {
@@ -36,6 +39,8 @@ pub(super) fn update<'a, T: Real>(
     let factor = take(&mut scratch, n * n);
     let left = take(&mut scratch, n * stride);
     let minus = take(&mut scratch, n * lost);
+    let white = take(&mut scratch, d * stride);
+    let white_minus = take(&mut scratch, d * lost);
     square(p_zz, d, sensed.dev, stride, stride);
     for i in 0..d {
         scale[i] = p_zz[i * d + i];
@@ -43,16 +48,33 @@ pub(super) fn update<'a, T: Real>(
     add_outer(p_zz, d, d, sensed.minus, lost, sensed.minus, lost, lost, -1.0);
     let mut sick = lanes(cholesky_scaled(p_zz, d, scale), Matrix::Innovation)?;
     sick = sick | pivots(p_zz, d, &innovation.predicted[..d])?;
+    for i in 0..d {
+        let pivot = p_zz[i * d + i];
+        let lost = !(T::of(LEAST * T::EPSILON) * scale[i]).lt(pivot * pivot);
+        if lost.all() {
+            return Err(Fault::NotPositive { matrix: Matrix::Innovation, pivot: i });
+        }
+        sick = sick | lost;
+    }
 
-    let z = Whitened::of(sensed, p_zz, d, scratch);
+    white.copy_from_slice(&sensed.dev[..d * stride]);
+    white_minus.copy_from_slice(&sensed.minus[..d * lost]);
+    solve_lower_rows(p_zz, d, white, stride);
+    solve_lower_rows(p_zz, d, white_minus, lost);
     for (to, s) in gain.chunks_exact_mut(d).zip(belief.factor.chunks_exact(n)) {
-        for (w, z) in to.iter_mut().zip(z.dev.chunks_exact(stride)) {
+        for (w, z) in to.iter_mut().zip(white.chunks_exact(stride)) {
             *w = dot(s, z);
         }
     }
     left.fill(T::zero());
     put_columns(left, stride, 0, belief.factor, n);
-    leftover(left, gain, z.dev, d, stride);
+    for (row, gain) in left.chunks_exact_mut(stride).zip(gain.chunks_exact(d)) {
+        for (&w, z) in gain.iter().zip(white.chunks_exact(stride)) {
+            for (x, &y) in row.iter_mut().zip(z) {
+                *x = (-w).mul_add(y, *x);
+            }
+        }
+    }
     square(cov, n, left, stride, stride);
     for i in 0..n {
         scale[i] = cov[i * n + i];
@@ -60,7 +82,7 @@ pub(super) fn update<'a, T: Real>(
     for (i, row) in minus.chunks_exact_mut(lost.max(1)).enumerate() {
         for (k, x) in row.iter_mut().enumerate() {
             let w = gain[i * d..(i + 1) * d].iter();
-            *x = w.zip(z.minus.chunks_exact(lost)).fold(T::zero(), |sum, (&w, z)| w.mul_add(z[k], sum));
+            *x = w.zip(white_minus.chunks_exact(lost)).fold(T::zero(), |sum, (&w, z)| w.mul_add(z[k], sum));
         }
     }
     add_outer(cov, n, n, minus, lost, minus, lost, lost, -1.0);

@@ -7,7 +7,7 @@ mod learnt;
 mod posterior;
 mod sensed;
 mod separate;
-mod whitened;
+mod square_root;
 
 pub use innovation::Innovation;
 pub(crate) use innovation::InnovationMut;
@@ -49,11 +49,10 @@ pub(crate) const fn update_scratch(
     smoothing: bool,
 ) -> usize {
     let columns = n + shape.plus + r;
-    let joint = joint::joint_scratch(n, d, shape.plus + r, smoothing);
-    let separate = separate::separate_scratch(n, d, columns, shape.minus);
+    let square_root = square_root::square_root_scratch(n, d, shape.plus + r, smoothing);
     let covariance = covariance::covariance_scratch(n, d, columns, shape.minus);
     let spread = spread_scratch(shape, n, d, map);
-    let of_block = larger(larger(joint, separate), covariance);
+    let of_block = larger(square_root, covariance);
     sense_scratch(n, d, r, shape) + larger(of_block, spread)
 }
 
@@ -90,10 +89,10 @@ pub(crate) fn update<'a, T: Real, H: Observation, R: Rule, F: Form>(
         (*innovation.nis, *innovation.log_likelihood) = (T::zero(), T::zero());
         return Ok(Updated { present, exact: T::Mask::splat(false), sick, posterior: None });
     }
-    let done = match (F::SQUARE_ROOT, block) {
-        (false, _) => covariance::update(&sensed, belief, innovation, scratch),
-        (true, Block::Joint) => joint::update(&sensed, belief, innovation, learning, scratch),
-        (true, Block::Separate) => separate::update(&sensed, belief, innovation, learning, scratch),
+    let done = if F::SQUARE_ROOT {
+        square_root::update(block, &sensed, belief, innovation, learning, scratch)
+    } else {
+        covariance::update(&sensed, belief, innovation, scratch)
     };
     let (posterior, more) = done.map_err(|fault| measurement.in_whole(fault))?;
     if let Some(component) = posterior.mean.iter().position(|m| (!m.finite()).all()) {

@@ -36,12 +36,20 @@ fn fault(model: &Model, choice: Option<&Choice>, fault: &Fault) -> String {
                 pivot + 1
             )
         }
-        Fault::SingularInnovation { measure: i } => format!(
-            "the innovation covariance is singular at pivot {} (measure {}): nothing is uncertain about it; give it a \
-             std above zero",
-            i + 1,
-            measure(i)
-        ),
+        Fault::SingularInnovation { measure: i } => {
+            let remedy = match choice.map(|choice| choice.form) {
+                Some(FormName::Covariance) => {
+                    "nothing is uncertain about it that the others do not say, to the digits that a covariance keeps; give \
+                     it a std above zero, or try the square-root form (--set form=square-root)"
+                }
+                _ => "nothing is uncertain about it; give it a std above zero",
+            };
+            format!(
+                "the innovation covariance is singular at pivot {} (measure {}): {remedy}",
+                i + 1,
+                measure(i)
+            )
+        }
         Fault::Indistinct { component } => format!(
             "the std of {} is below the spacing of numbers at its mean: the points of the rule cannot be told from each \
              other; measure it from a nearer origin, or make its std zero if it is known",

@@ -48,6 +48,12 @@ pub enum Command {
   givens compare turn.toml radar.csv --methods ekf,sr-ukf,ckf --truth truth.csv
   givens compare turn.toml radar.csv --methods ukf,ckf --set ukf.kappa=1")]
     Compare(CompareArgs),
+    /// Run the experiments of five papers again, beside the published numbers
+    #[command(after_help = "Examples:
+  givens reproduce all -o pages              at the papers' own numbers of runs
+  givens reproduce arasaratnam2011smoothers --only table-4 --runs 5000 --seed 7
+  givens reproduce sarkka2012continuous -o pages --runs 1000")]
+    Reproduce(ReproduceArgs),
     /// List the methods, their parts and their options
     #[command(after_help = "Example:\n  givens methods | grep unscented")]
     Methods,
@@ -216,6 +222,25 @@ pub fn of_smooth(error: &clap::Error) -> Option<Stop> {
     let unknown = error.kind() == ErrorKind::UnknownArgument;
     let stop = Stop::input(format!("{found} is an option of `smooth`"));
     unknown.then(|| stop.help(format!("write givens smooth MODEL DATA {found} {value}")))
+}
+
+/// Which experiments, and how often.
+#[derive(Debug, ClapArgs)]
+pub struct ReproduceArgs {
+    /// The paper, or `all`
+    pub paper: String,
+    /// One experiment of it
+    #[arg(long, value_name = "NAME")]
+    pub only: Option<String>,
+    /// Monte-Carlo runs of each setting; without it, as many as the paper made
+    #[arg(long, value_parser = runs)]
+    pub runs: Option<u32>,
+    /// Of all random numbers
+    #[arg(long, value_parser = seed, default_value = "1")]
+    pub seed: u64,
+    /// The folder for pages, tables and figures; without it, the pages' claims go to standard output
+    #[arg(long, short, value_name = "DIR")]
+    pub output: Option<PathBuf>,
 }
 
 /// A whole number.

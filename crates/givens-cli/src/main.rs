@@ -32,6 +32,7 @@ fn main() -> ExitCode {
         args::Command::Simulate(args) => commands::simulate::simulate(&args),
         args::Command::Compare(args) => commands::compare::compare(&args),
         args::Command::Methods => commands::methods::methods(),
+        args::Command::Reproduce(args) => commands::reproduce::reproduce(&args),
         args::Command::Check(args) => commands::check::check(&args),
         args::Command::Completions { shell } => commands::completions::completions(shell),
     };

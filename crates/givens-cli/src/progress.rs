@@ -70,3 +70,39 @@ impl<'a, I: Iterator<Item = Row<'a>> + Clone> Iterator for Counting<I> {
         self.rows.count()
     }
 }
+
+/// A bar over the runs of an experiment. On anything but a terminal it is silent.
+pub struct Bar {
+    bar: ProgressBar,
+    since: Instant,
+}
+
+impl Bar {
+    pub fn new(name: &str) -> Self {
+        let bar = ProgressBar::with_draw_target(Some(0), ProgressDrawTarget::hidden());
+        if let Ok(style) =
+            ProgressStyle::with_template("{msg} {bar:40} {human_pos}/{human_len} runs, {eta} left")
+        {
+            bar.set_style(style);
+        }
+        bar.set_message(name.to_owned());
+        Self { bar, since: Instant::now() }
+    }
+
+    pub fn finish(&self) {
+        self.bar.finish_and_clear();
+    }
+}
+
+impl givens_papers::Progress for Bar {
+    fn expect(&self, units: usize) {
+        self.bar.inc_length(units as u64);
+    }
+
+    fn done(&self) {
+        self.bar.inc(1);
+        if self.bar.is_hidden() && self.since.elapsed() > Duration::from_secs(1) {
+            self.bar.set_draw_target(ProgressDrawTarget::stderr_with_hz(5));
+        }
+    }
+}

@@ -5,4 +5,5 @@ pub mod compare;
 pub mod completions;
 pub mod filter;
 pub mod methods;
+pub mod reproduce;
 pub mod simulate;

@@ -42,6 +42,14 @@ impl core::error::Error for DestinationError {
     }
 }
 
+/// Makes a folder, and those that it lies in; one that is there is left as it is.
+///
+/// # Errors
+/// What the system says.
+pub fn make_folder(path: &Path) -> Result<(), DestinationError> {
+    fs::create_dir_all(path).map_err(|source| DestinationError { path: path.to_owned(), source })
+}
+
 impl Destination {
     /// Makes sure that `PATH.partial` can be written, and leaves it away until there is something to write. A device, such
     /// as a terminal, is written as it is; behind a link, the file it leads to.

@@ -21,13 +21,13 @@ fn main() {
         write(folder.join(format!("work-precision-{name}.svg")), figure).unwrap();
     };
     let sweeps = [
-        done(&problem::turn(), &draw),
-        done(&problem::van_der_pol(), &draw),
-        done(&problem::lorenz(), &draw),
-        done(&problem::stiff(1000.0), &draw),
+        done(&problem::turn(), draw),
+        done(&problem::van_der_pol(), draw),
+        done(&problem::lorenz(), draw),
+        done(&problem::stiff(1000.0), draw),
     ];
     table::limits(sweeps.iter().map(|(name, sweep)| (*name, sweep)));
-    stiffness(&draw);
+    stiffness(draw);
 }
 
 /// One problem: its table, its figure.

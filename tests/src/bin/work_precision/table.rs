@@ -40,11 +40,9 @@ fn default(curve: &Curve) -> String {
         }
     };
     format!(
-        "{} | {slopes} | {jacobians} | {steps} | {:.0e} | {:.0e} | {:.1} ",
+        "{} | {slopes} | {jacobians} | {steps} | {:.0e} | {:.0e} | {:.1}",
         predicted.evaluations, own.mean, own.cov, predicted.microseconds
     )
-    .trim_end()
-    .to_owned()
 }
 
 /// The limits: how well they are known, and how far apart they are.
@@ -53,14 +51,18 @@ pub fn limits<'s>(sweeps: impl Iterator<Item = (&'s str, &'s Sweep)>) {
     println!("|---|---|--:|--:|--:|--:|");
     for (model, sweep) in sweeps {
         for limit in &sweep.limits {
-            let known = |error: f64| if error.is_nan() { "fails".to_owned() } else { format!("{error:.0e}") };
+            let known = |error: f64| match error {
+                0.0 => "0".to_owned(),
+                _ if error.is_nan() => "fails".to_owned(),
+                _ => format!("{error:.0e}"),
+            };
             println!(
-                "| {model} | {} | {} | {} | {:.0e} | {:.0e} |",
+                "| {model} | {} | {} | {} | {} | {} |",
                 limit.time_update,
                 known(limit.rk4),
                 known(limit.rodas4),
-                limit.moments.mean,
-                limit.moments.cov
+                known(limit.moments.mean),
+                known(limit.moments.cov)
             );
         }
         for curve in sweep.curves.iter().filter(|curve| curve.solver.is_none()) {

@@ -1,0 +1,3 @@
+//! What the time updates of continuous models have in common, and where they differ as theory says.
+
+mod memory;

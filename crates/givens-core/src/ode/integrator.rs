@@ -105,12 +105,8 @@ pub struct Work {
 
 impl Integrator {
     /// The options that a user meets, as a constant.
-    pub const DEFAULT: Self = Self {
-        solver: Solver::Dp5,
-        steps: Steps::Count(16),
-        tolerance: Tolerance::DEFAULT,
-        limit: 100_000,
-    };
+    pub const DEFAULT: Self =
+        Self { solver: Solver::Dp5, steps: Steps::Count(16), tolerance: Tolerance::DEFAULT, limit: 100_000 };
 
     /// Whether the options are in range.
     ///

@@ -2,9 +2,9 @@
 
 use super::image::{Image, Imaged};
 use super::noise::diffusion;
-use crate::filter::start::Sizes;
 use crate::filter::error::{Fault, Quantity};
 use crate::filter::memory::take;
+use crate::filter::start::Sizes;
 use crate::model::{At, Sde, drift_scratch};
 use crate::scalar::{Mask, Real};
 

@@ -1,4 +1,5 @@
-//! Random nonlinear drifts whose degree is known, and what the methods make of them.
+//! Random nonlinear drifts whose degree is known, and what the methods make of them. But for the last kind, x · f does not
+//! grow faster than |x|²: neither a state nor the moments of one run away in a finite time.
 
 use givens::filter::Gaussian;
 use givens::model::{At, Sde, Varies};
@@ -12,14 +13,17 @@ use nalgebra::DMatrix;
 /// How a drift departs from a linear one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Kind {
-    /// (B x)_i (C x)_i.
+    /// (c · x) (B − Bᵀ) x, c the first row of C; x²/5 of a single state.
     Quadratic,
-    /// x_i x_{i+1}, in a circle: products of two states, and no squares; none of one state.
+    /// The last state times a rotation of the others, as in a turn: products of two states, and no squares. Nothing of
+    /// fewer than three states.
     Bilinear,
-    /// −(B x)_i (C x)_i².
+    /// −Bᵀ (B x)³, the cube of every component.
     Cubic,
     /// sin (B x)_i + cos (C x)_i.
     Trigonometric,
+    /// (B x)_i².
+    Square,
 }
 
 /// Those beyond quadratic.
@@ -50,15 +54,25 @@ impl Sde for Drift {
         self.g.ncols()
     }
     fn drift<T: Real>(&self, _: &At<T>, x: &[T], dx: &mut [T]) {
-        let n = x.len();
+        let last = x.len() - 1;
+        let turn = |i: usize, x: &[T]| {
+            x.iter()
+                .enumerate()
+                .fold(T::zero(), |sum, (j, &x)| T::of(self.b[(i, j)] - self.b[(j, i)]).mul_add(x, sum))
+        };
         for (i, dx) in dx.iter_mut().enumerate() {
-            let (b, c) = (row(&self.b, i, x), row(&self.c, i, x));
+            let b = row(&self.b, i, x);
             let far = match self.kind {
-                Kind::Quadratic => b * c,
-                Kind::Bilinear if n > 1 => x[i] * x[(i + 1) % n],
+                Kind::Quadratic if last == 0 => T::of(0.2) * x[0] * x[0],
+                Kind::Quadratic => row(&self.c, 0, x) * turn(i, x),
+                Kind::Bilinear if i < last => x[last] * turn(i, &x[..last]),
                 Kind::Bilinear => T::zero(),
-                Kind::Cubic => -(b * c * c),
-                Kind::Trigonometric => b.sin() + c.cos(),
+                Kind::Cubic => (0..=last).fold(T::zero(), |sum, k| {
+                    let b = row(&self.b, k, x);
+                    sum - T::of(self.b[(k, i)]) * b * b * b
+                }),
+                Kind::Trigonometric => b.sin() + row(&self.c, i, x).cos(),
+                Kind::Square => b * b,
             };
             *dx = T::of(self.bend).mul_add(far, row(&self.a, i, x));
         }

@@ -90,7 +90,7 @@ fn all_velocities_but_the_literal_one_agree_in_the_limit_of_small_covariances() 
 fn the_mean_of_a_square_is_what_each_velocity_sees_of_its_curvature() {
     let from_x = DMatrix::from_row_slice(2, 2, &[0.0, 0.0, 1.0, 0.0]);
     let model = Drift {
-        kind: Kind::Quadratic,
+        kind: Kind::Square,
         a: DMatrix::zeros(2, 2),
         b: from_x.clone(),
         c: from_x,
@@ -101,7 +101,7 @@ fn the_mean_of_a_square_is_what_each_velocity_sees_of_its_curvature() {
         model,
         mean: vec![0.0; 2],
         cov: DMatrix::identity(2, 2),
-        ..Problem::random(Kind::Quadratic, 1, 2, 1, 0)
+        ..Problem::random(Kind::Square, 1, 2, 1, 0)
     };
     // `partial` takes ½ of the mean of v(x_j), ½, and ½ of v(x̃), x̃ = (½, ½); as printed, of v(x₁) = 1
     let seen = [0.0, 0.5, 0.5, 0.375, 0.75, 1.0];

@@ -11,7 +11,7 @@ use crate::rule::Shape;
 pub struct Sizes {
     /// Length n of the state.
     pub states: usize,
-    /// Columns of the root of Q.
+    /// Columns of the root of Q; of G for continuous models, as the rule spreads them if G depends on the state.
     pub process_noise: usize,
     /// Length d of the longest measurement.
     pub measures: usize,
@@ -26,7 +26,8 @@ pub struct Sizes {
 }
 
 impl Sizes {
-    /// The sizes of a model whose noises have as many columns as rows and which overrides no provided method.
+    /// The sizes of a model whose noises have as many columns as rows and which overrides no provided method. A method for
+    /// continuous models makes of these its own, by `sizes_for` of its type.
     #[must_use]
     pub const fn new(states: usize, measures: usize) -> Self {
         let longer = larger(states, measures);

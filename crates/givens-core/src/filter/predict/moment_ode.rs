@@ -26,11 +26,13 @@ pub struct MomentOde {
 
 impl MomentOde {
     /// The sizes with scratch for a model that overrides no provided method, with a diffusion that does not depend on the state.
+    #[allow(clippy::unused_self, reason = "as of the other time updates")]
     pub(crate) const fn sizes_for(&self, sizes: Sizes, shape: Shape) -> Sizes {
         by_rule_sizes(sizes, shape, false)
     }
 
     /// The same where the diffusion depends on the state.
+    #[allow(clippy::unused_self, reason = "as above")]
     pub(crate) const fn sizes_with_state(&self, sizes: Sizes, shape: Shape) -> Sizes {
         by_rule_sizes(sizes, shape, true)
     }

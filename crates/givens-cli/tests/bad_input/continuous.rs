@@ -130,6 +130,15 @@ fn parts_and_options_that_exclude_each_other() {
                 "filter osc.toml osc.csv -o out.csv --method cd-ckf2 --set rtol=0",
                 &["--set rtol=0: must be above 0, or atol must be"],
             ),
+        ],
+    );
+}
+
+#[test]
+fn diffusions_that_a_method_cannot_serve() {
+    check(
+        "diffusions",
+        &[
             (
                 "by_state",
                 BY_STATE,

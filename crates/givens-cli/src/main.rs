@@ -2,6 +2,7 @@
 //! 1 a filter failed (what was finished is written).
 
 mod args;
+mod columns;
 mod commands;
 mod failure;
 mod figure;

@@ -1,6 +1,7 @@
 //! From what the user typed to a checked plan: every input is read and judged before anything runs.
 
 use crate::args::{FilterArgs, ModelArgs};
+use crate::columns::{ignored, source_name};
 use crate::message::{Stop, say};
 use crate::method::{chosen, pair};
 use crate::truth::Truth;
@@ -8,7 +9,6 @@ use core::f64::consts::TAU;
 use givens::Goal;
 use givens::registry::Choice;
 use givens::scalar::Shown;
-use givens_expr::suggest;
 use givens_io::{Beginning, Model, Track, Tracks, read_tracks};
 
 /// Everything that a run over data needs, read and checked.
@@ -78,25 +78,6 @@ impl Plan {
                 .help("leave --truth out, or add the row to it"));
         }
         Ok(goals)
-    }
-}
-
-/// A file as messages call it.
-pub fn source_name(path: &str) -> &str {
-    if path == "-" { "standard input" } else { path }
-}
-
-/// Names columns that were not read, and what they may have been meant for among the `absent` ones.
-pub fn ignored(file: &str, columns: &[String], absent: &[&str]) {
-    let file = source_name(file);
-    if !columns.is_empty() {
-        let plural = if columns.len() == 1 { "" } else { "s" };
-        let named = columns.iter().map(|column| match suggest(column, absent.iter().copied()) {
-            Some(near) => format!("{column} (did you mean `{near}`?)"),
-            None => column.clone(),
-        });
-        let named: Vec<String> = named.collect();
-        say(&format!("{file}: column{plural} not used by the model: {}", named.join(", ")));
     }
 }
 

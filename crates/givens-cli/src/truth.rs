@@ -1,7 +1,7 @@
 //! The true states beside the data: which of their rows are of which row of the data.
 
+use crate::columns::{ignored, source_name};
 use crate::message::Stop;
-use crate::plan::{ignored, source_name};
 use givens_io::{Model, Track, Tracks, read_truth};
 
 /// A truth that knows at least one row of the data.

@@ -1,6 +1,6 @@
 //! A filter's counters say what its drift was asked.
 
-use givens::filter::{Filter, Gaussian, Lskf, Method, Over, SrCdCkf2};
+use givens::filter::{Filter, Gaussian, Lskf, Over, SrCdCkf2};
 use givens::model::zoo::VanDerPol;
 use givens::ode::{Solver, Work};
 use givens_tests::counted::Counted;

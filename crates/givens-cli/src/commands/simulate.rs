@@ -1,11 +1,12 @@
 //! `givens simulate`: trajectories and measurements drawn from a model.
 
 use crate::args::SimulateArgs;
+use crate::columns::{ignored, source_name};
 use crate::failure;
 use crate::files::{self, Sink};
 use crate::message::Stop;
 use crate::paths::paths;
-use crate::plan::{absent, ignored, model, source_name};
+use crate::plan::{absent, model};
 use crate::timetable::{bounded, regular};
 use givens::Row;
 use givens::filter::{Gaussian, StepError};

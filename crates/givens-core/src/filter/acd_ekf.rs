@@ -5,7 +5,7 @@ use super::continuous::integrator;
 use super::form::{Covariance, SquareRoot};
 use super::methods::Method;
 use super::predict::MomentOde;
-use super::start::Sizes;
+use super::sizes::Sizes;
 use super::update::Block;
 use crate::ode::{AdaptiveSolver, Integrator};
 use crate::rule::Taylor;

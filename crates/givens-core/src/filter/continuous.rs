@@ -4,7 +4,7 @@ use super::constants::continuous_constants;
 use super::form::{Covariance, SquareRoot};
 use super::methods::Method;
 use super::predict::{Gauge, ItoTaylor, LevelSet, MomentOde, Root, Variant, Velocity};
-use super::start::Sizes;
+use super::sizes::Sizes;
 use super::update::Block;
 use crate::ode::{Integrator, Solver, Steps, Tolerance};
 use crate::rule::{Cubature3, GaussHermite, Taylor, Unscented};

@@ -2,8 +2,9 @@
 
 use super::error::{Fault, StepError};
 use super::form::Form;
+use super::layout::Layout;
 use super::methods::Method;
-use super::start::{Layout, Sizes};
+use super::sizes::Sizes;
 use super::stepper::Filter;
 use super::update::Innovation;
 use crate::ode::Work;

@@ -3,7 +3,7 @@
 use super::error::Fault;
 use super::form::{Covariance, Form, SquareRoot};
 use super::predict::{OneTransition, TimeUpdate};
-use super::start::{Layout, Sizes};
+use super::sizes::Sizes;
 use super::update::Block;
 #[cfg(feature = "alloc")]
 use super::{Filter, Gaussian, Grow, Prior, StepError};
@@ -21,13 +21,13 @@ macro_rules! constants {
             /// Scalars of memory of a filter of these sizes.
             #[must_use]
             pub const fn memory(&self, sizes: Sizes) -> usize {
-                Layout::discrete(sizes, self.parts().shape_for(sizes.states), false).len
+                OneTransition::layout(sizes, self.parts().shape_for(sizes.states), false).len
             }
 
             /// Scalars of memory of a filter of these sizes whose predictions leave what a smoother needs.
             #[must_use]
             pub const fn smoothing_memory(&self, sizes: Sizes) -> usize {
-                Layout::discrete(sizes, self.parts().shape_for(sizes.states), true).len
+                OneTransition::layout(sizes, self.parts().shape_for(sizes.states), true).len
             }
 
             const fn parts(&self) -> $rule {

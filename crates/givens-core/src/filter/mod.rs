@@ -1,6 +1,7 @@
 //! Filters: a rule, a time update and a measurement update, stepped through time.
 
 mod acd_ekf;
+pub(crate) mod backward;
 mod constants;
 mod continuous;
 mod distinct;
@@ -8,15 +9,18 @@ mod error;
 mod form;
 mod gaussian;
 mod known;
+pub(crate) mod lanes;
+mod layout;
 pub(crate) mod memory;
 mod methods;
 pub mod predict;
-mod start;
+mod sizes;
 mod stepper;
 mod steps;
 pub mod update;
 
 pub use acd_ekf::{AcdEkf, SrAcdEkf};
+pub use backward::Backward;
 pub use continuous::{
     CdCkf, CdCkf1, CdCkf2, CdEkf, CdGhkf1, CdGhkf2, CdUkf, CdUkf1, Lskf, SrCdCkf, SrCdCkf1, SrCdCkf2,
     SrCdEkf, SrCdGhkf1, SrCdGhkf2, SrCdUkf, SrCdUkf1,
@@ -27,8 +31,7 @@ pub use form::{Belief, Covariance, Form, SquareRoot};
 pub use gaussian::Gaussian;
 pub use gaussian::{InvalidCovariance, factor_of_covariance};
 pub use methods::{Cdkf, Ckf, Ckf5, Ekf, Method, Over, Qkf, SrCdkf, SrCkf, SrCkf5, SrEkf, SrQkf, SrUkf, Ukf};
-pub use predict::Backward;
-pub use start::Sizes;
+pub use sizes::Sizes;
 pub use stepper::{Filter, Prior};
 pub use steps::Grow;
 pub use update::{Block, Innovation, Learnt};

@@ -1,11 +1,13 @@
 //! A filter in motion: its memory, its start, and what it knows.
 
+use super::backward::Backward;
 use super::error::{Fault, Quantity, StepError};
 use super::form::{Belief, Form};
+use super::layout::Layout;
 use super::memory::take;
 use super::methods::Over;
-use super::predict::{Backward, TimeUpdate};
-use super::start::{Layout, Sizes, countable};
+use super::predict::TimeUpdate;
+use super::sizes::{Sizes, countable};
 use super::update::Learnt;
 use crate::model::At;
 use crate::ode::Work;

@@ -1,10 +1,12 @@
 //! The two steps of a filter: `predict(t)` and `update(sensor, z)`.
 
 use super::Matrix;
+use super::backward::accumulate;
 use super::distinct::{distinct, judge, lower, note};
 use super::error::{Fault, StepError};
+use super::lanes::lanes;
 use super::methods::Over;
-use super::predict::{Given, Plan, Stopped, TimeUpdate, accumulate, lanes};
+use super::predict::{Given, Plan, Stopped, TimeUpdate};
 use super::stepper::{Filter, Parts, layout};
 use super::update::{InnovationMut, Measurement, update};
 use crate::model::{At, Observation};

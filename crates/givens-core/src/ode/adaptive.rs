@@ -2,9 +2,8 @@
 
 use super::control::Control;
 use super::field::{Failed, Field, Method, finite};
-use super::integrator::Integrator;
 use super::segment::{Segment, Visit};
-use super::{Steps, Stop, System, Tolerance, Why, Work};
+use super::{Stop, System, Tolerance, Why, Work};
 use crate::model::At;
 use crate::scalar::Real;
 
@@ -15,16 +14,6 @@ pub(super) struct Bounds {
     pub limit: usize,
     /// The length of the first step, if it is not to be found.
     pub first: Option<f64>,
-}
-
-impl Bounds {
-    pub fn new(integrator: &Integrator) -> Self {
-        let longest = match integrator.steps {
-            Steps::Count(_) => f64::INFINITY,
-            Steps::Longest(longest) => longest,
-        };
-        Self { tolerance: integrator.tolerance, longest, limit: integrator.limit, first: None }
-    }
 }
 
 /// Integrates over the gap; `end` and `error` have the length of the state, `curve` three times that.
@@ -165,7 +154,7 @@ mod tests {
     use crate::model::At;
     use crate::ode::explicit::{Explicit, explicit_scratch};
     use crate::ode::tableau::DP5;
-    use crate::ode::{Integrator, System, Tolerance, Work};
+    use crate::ode::{System, Tolerance, Work};
     use crate::scalar::Real;
 
     /// y'' = −y.
@@ -201,8 +190,7 @@ mod tests {
         for rtol in [1e-4, 1e-7, 1e-10] {
             for first in [None, Some(1e-12), Some(1e-6), Some(1e-2), Some(1.0), Some(7.0), Some(1e6)] {
                 let tolerance = Tolerance { rtol, atol: 0.0 };
-                let bounds =
-                    Bounds { first, ..Bounds::new(&Integrator { tolerance, ..Integrator::default() }) };
+                let bounds = Bounds { tolerance, longest: f64::INFINITY, limit: 100_000, first };
                 let (mut slopes, mut memory) = ([0.0; explicit_scratch(&DP5, 2)], [[0.0; 6]; 3]);
                 let mut method = Explicit { tableau: &DP5, k: &mut slopes, len: 2 };
                 let mut field =

@@ -131,6 +131,14 @@ impl Integrator {
         }
     }
 
+    fn bounds(&self) -> Bounds {
+        let longest = match self.steps {
+            Steps::Count(_) => f64::INFINITY,
+            Steps::Longest(longest) => longest,
+        };
+        Bounds { tolerance: self.tolerance, longest, limit: self.limit, first: None }
+    }
+
     /// Scalars of scratch of [`solve`](Self::solve): for a state of length `len`, a system that needs `system` of its
     /// own and has a table of length `table`, and `beside` controls and parameters together.
     #[must_use]
@@ -208,7 +216,7 @@ impl Integrator {
         let (curve, rest) = rest.split_at_mut(3 * len);
         let (own, rest) = rest.split_at_mut(own);
         let mut field = Field { system, u: at.u, p: at.p, table, scratch: own, calls: 0 };
-        let bounds = Bounds::new(self);
+        let bounds = self.bounds();
         let memory = (end, error, curve);
         let done = match self.solver.tableau() {
             None => {

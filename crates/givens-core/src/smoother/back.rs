@@ -1,12 +1,12 @@
 //! One step back in covariance form: from the smoothed belief at k + 1 to that at k (2011 Table 2).
 
-use crate::filter::predict::multiply;
+use crate::filter::backward::multiply;
 use crate::filter::{Belief, Fault, Matrix};
 use crate::kernels::{add_outer, cholesky_scaled};
 use crate::scalar::Real;
 
+use crate::filter::lanes::lanes;
 use crate::filter::memory::take;
-use crate::filter::predict::lanes;
 
 /// What was recorded of the time update from k to k + 1.
 #[derive(Clone, Copy, Debug)]

@@ -2,8 +2,8 @@
 
 use super::back::symmetrise;
 use super::history::{OTHER_FORM, UNFOLLOWED, for_smoothing};
+use crate::filter::backward::multiply;
 use crate::filter::memory::{put_columns, take};
-use crate::filter::predict::multiply;
 use crate::filter::{Fault, Filter, Form, Grow, Learnt, Over, StepError};
 use crate::kernels::{add_outer, copy_lower, square, tria};
 use crate::scalar::Real;

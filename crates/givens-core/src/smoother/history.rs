@@ -2,8 +2,8 @@
 
 use super::back::back_scratch;
 use super::rotated::rotated_len;
+use crate::filter::backward::multiply;
 use crate::filter::memory::{larger, take};
-use crate::filter::predict::multiply;
 use crate::filter::{Fault, Filter, Form, Grow, Over, StepError};
 use crate::scalar::Real;
 use core::marker::PhantomData;

@@ -1,7 +1,7 @@
 //! One step back in square-root form, in the coordinates of the roots (docs/algorithms.md S2–S5).
 
+use crate::filter::backward::multiply;
 use crate::filter::memory::{put_columns, take};
-use crate::filter::predict::multiply;
 use crate::filter::{Belief, Learnt};
 use crate::kernels::{copy_lower, tria};
 use crate::scalar::Real;

@@ -4,17 +4,10 @@
 use ttf_parser::gpos::{PairAdjustment, PositioningSubtable};
 use ttf_parser::{Face, GlyphId, OutlineBuilder};
 
-use super::scene::{Point, Segment};
+use super::scene::{Point, Segment, Weight};
 
 static REGULAR: &[u8] = include_bytes!("../../assets/Inter-Regular.otf");
 static SEMIBOLD: &[u8] = include_bytes!("../../assets/Inter-SemiBold.otf");
-
-/// The two weights of the embedded font.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Weight {
-    Regular,
-    SemiBold,
-}
 
 /// One glyph of a line and where it starts, in em from the start of the line.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,10 +1,10 @@
 //! The key: what each mark is, beside a sample of it, outside the axes.
 
 use super::colour::Colour;
-use super::font::{Fonts, Weight};
+use super::font::Fonts;
 use super::marks::{DASH, size};
 use super::plot::{Mark, Panel, Shape};
-use super::scene::{Anchor, Item, Marker, Point, Stroke, Text};
+use super::scene::{Anchor, Item, Marker, Point, Stroke, Text, Weight};
 
 /// Height of one line of a key in pixels.
 pub(super) const LINE: f64 = 18.0;

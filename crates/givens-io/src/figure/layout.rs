@@ -1,11 +1,11 @@
 //! From a figure to a scene: the header, then every panel in its place.
 
 use super::colour::Colour;
-use super::font::{Fonts, Weight};
+use super::font::Fonts;
 use super::key;
 use super::panel::{Margins, Ranged};
 use super::plot::{Block, Figure, Grid, Panel};
-use super::scene::{Anchor, Item, Rect, Scene, Text};
+use super::scene::{Anchor, Item, Rect, Scene, Text, Weight};
 
 const EDGE: f64 = 18.0;
 const BETWEEN: f64 = 16.0;

@@ -1,12 +1,12 @@
 //! One panel: ranges, ticks, the room its labels need, and its drawing.
 
 use super::colour::Colour;
-use super::font::{Fonts, Weight};
+use super::font::Fonts;
 use super::key;
 use super::marks::{self, Frame};
 use super::plot::{Axis, Panel};
 use super::scale::{Ruler, Scale, span};
-use super::scene::{Anchor, Item, Rect, Stroke, Text};
+use super::scene::{Anchor, Item, Rect, Stroke, Text, Weight};
 use super::ticks::{Ticks, ticks};
 
 pub(super) const TICK_SIZE: f64 = 11.0;

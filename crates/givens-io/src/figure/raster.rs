@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use tiny_skia::{FillRule, LineCap, LineJoin, Mask, Paint, Path, PathBuilder, Pixmap, StrokeDash, Transform};
 
 use super::colour::Colour;
-use super::font::{Fonts, Weight};
-use super::scene::{Anchor, Item, Marker, Point, RING_WIDTH, Rect, Scene, Segment, Stroke, Text};
+use super::font::Fonts;
+use super::scene::{Anchor, Item, Marker, Point, RING_WIDTH, Rect, Scene, Segment, Stroke, Text, Weight};
 
 /// Device pixels per pixel of the scene.
 const FINENESS: f64 = 2.0;

@@ -2,7 +2,6 @@
 //! Both writers read it and nothing else, so that SVG and PNG cannot differ.
 
 use super::colour::Colour;
-use super::font::Weight;
 
 /// A point in pixels, or, in a glyph, in em.
 pub(super) type Point = [f64; 2];
@@ -15,6 +14,13 @@ pub(super) enum Segment {
     Quadratic(Point, Point),
     Cubic(Point, Point, Point),
     Close,
+}
+
+/// The two weights of the embedded font.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Weight {
+    Regular,
+    SemiBold,
 }
 
 /// A rectangle in pixels.

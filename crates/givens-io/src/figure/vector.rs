@@ -4,8 +4,8 @@ use core::fmt::Write as _;
 use std::collections::BTreeSet;
 
 use super::colour::Colour;
-use super::font::{Fonts, Weight};
-use super::scene::{Anchor, Item, Marker, Point, RING_WIDTH, Rect, Scene, Segment, Stroke, Text};
+use super::font::Fonts;
+use super::scene::{Anchor, Item, Marker, Point, RING_WIDTH, Rect, Scene, Segment, Stroke, Text, Weight};
 
 /// Units per em in which glyphs are defined.
 const EM: f64 = 1000.0;

@@ -2,7 +2,7 @@
 
 use super::Plan;
 use crate::filter::error::Fault;
-use crate::filter::start::Sizes;
+use crate::filter::sizes::Sizes;
 use crate::model::{At, Sde, Varies};
 use crate::ode::{Integrator, Steps};
 use crate::rule::RuleError;

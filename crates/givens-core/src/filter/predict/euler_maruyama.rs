@@ -1,13 +1,13 @@
 //! The Euler–Maruyama step: m⁺ = E[x + δ f], P⁺ = Cov[x + δ f] + δ E[G Gᵀ].
 
 use super::continuous::{Continuous, check_steps};
-use super::gain::Backward;
 use super::noise::{Stacked, check_spread, diffusion, finish, rate_scratch, stacked_scratch};
 use super::{Given, Plan, Stopped, TimeUpdate};
+use crate::filter::backward::Backward;
 use crate::filter::error::Fault;
 use crate::filter::form::{Belief, Form};
 use crate::filter::memory::{larger, take};
-use crate::filter::start::{ENDLESS, Sizes, fits};
+use crate::filter::sizes::{ENDLESS, Sizes, fits};
 use crate::model::{At, Flow, Map, Sde, Varies};
 use crate::ode::{Steps, Work};
 use crate::rule::{Rule, Shape, Spread};

@@ -5,6 +5,7 @@ use super::image::{Image, Imaged};
 use super::integrate::Carrier;
 use crate::filter::error::{Fault, Matrix};
 use crate::filter::form::Belief;
+use crate::filter::lanes::lanes;
 use crate::filter::memory::take;
 use crate::kernels::{lu, lu_order, lu_solve, square, tria};
 use crate::model::At;
@@ -127,7 +128,7 @@ impl<I: Image> Carrier for Front<I> {
     fn factor<T: Real>(&self, y: &[T], factor: &mut [T]) -> Result<(), Fault> {
         let n = self.image.states();
         factor.copy_from_slice(&y[n..n + n * n]);
-        super::lanes(tria(factor, n, n, n), Matrix::Predicted).map(|_| ())
+        lanes(tria(factor, n, n, n), Matrix::Predicted).map(|_| ())
     }
 
     fn root<T: Real>(&self, y: &[T], _: &[T], root: &mut [T]) {

@@ -4,7 +4,7 @@
 use super::noise::{check_spread, diffusion};
 use crate::filter::error::Fault;
 use crate::filter::memory::take;
-use crate::filter::start::Sizes;
+use crate::filter::sizes::Sizes;
 use crate::model::{At, Flow, Map, Sde, Varies, drift_scratch, flow_scratch};
 use crate::rule::{Rule, Shape, Spread};
 use crate::scalar::Real;

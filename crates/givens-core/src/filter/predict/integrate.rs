@@ -1,13 +1,15 @@
 //! A belief carried over a gap by a solver, and what a smoother needs to come back.
 
 use super::columns::{dot, gather};
-use super::gain::{Backward, gain_of_covariance};
+use super::gain::gain_of_covariance;
 use super::image::Image;
 use super::{Given, Stopped};
+use crate::filter::backward::Backward;
 use crate::filter::error::{Fault, Halt, Matrix, Quantity};
 use crate::filter::form::{Belief, Form};
+use crate::filter::lanes::lanes;
 use crate::filter::memory::{put_columns, take};
-use crate::filter::start::{ENDLESS, Sizes, fits};
+use crate::filter::sizes::{ENDLESS, Sizes, fits};
 use crate::kernels::{Health, copy_lower, downdate, solve_lower, tria};
 use crate::model::At;
 use crate::ode::{Integrator, Segment, Solver, Stop, System, Why, Work};
@@ -210,5 +212,5 @@ fn conditional<T: Real, C: Carrier>(
         }
         copy_lower(root, n, wide, stride);
     }
-    super::lanes(health, Matrix::Conditional)
+    lanes(health, Matrix::Conditional)
 }

@@ -1,13 +1,14 @@
 //! The Itô–Taylor step of order 1.5: the drift expanded, the rule over the expansion (2010 eq 25–27; 2012 eq 12).
 
 use super::continuous::{Continuous, check_steps};
-use super::gain::Backward;
 use super::noise::{Stacked, check_spread, diffusion_rate, finish, rate_scratch, stacked_scratch};
 use super::{Given, Plan, Stopped, TimeUpdate};
+use crate::filter::backward::Backward;
 use crate::filter::error::Fault;
 use crate::filter::form::{Belief, Form};
+use crate::filter::layout::Layout;
 use crate::filter::memory::{larger, take};
-use crate::filter::start::{ENDLESS, Layout, Sizes, countable, fits};
+use crate::filter::sizes::{ENDLESS, Sizes, countable, fits};
 use crate::model::{At, Expanded, Map, Sde, expanded_scratch, expansion_scratch};
 use crate::ode::{Steps, Work};
 use crate::rule::{Rule, Shape, Spread};

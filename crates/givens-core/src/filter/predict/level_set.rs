@@ -2,16 +2,17 @@
 
 use super::continuous::{Continuous, check_integrator};
 use super::front::{Front, front_len, front_scratch};
-use super::gain::Backward;
 use super::integrate::{Lengths, integrate, integrate_scratch};
 use super::moments::{Moments, moments_len, moments_scratch};
 use super::noise::rate_scratch;
 use super::velocity::{ByVelocity, Velocity, by_velocity_scratch, by_velocity_sizes};
 use super::{Given, Plan, Stopped, TimeUpdate};
+use crate::filter::backward::Backward;
 use crate::filter::error::Fault;
 use crate::filter::form::{Belief, Form};
+use crate::filter::layout::Layout;
 use crate::filter::memory::larger;
-use crate::filter::start::{Layout, Sizes, countable};
+use crate::filter::sizes::{Sizes, countable};
 use crate::model::{At, Sde};
 use crate::ode::{Integrator, Work};
 use crate::rule::{Rule, Shape};

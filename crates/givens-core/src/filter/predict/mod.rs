@@ -19,19 +19,17 @@ mod settle;
 mod transition;
 mod velocity;
 
+pub use super::backward::{Backward, accumulate};
 pub use euler_maruyama::EulerMaruyama;
-pub use gain::{Backward, accumulate};
-pub(crate) use gain::{accumulate_scratch, multiply, split};
 pub use ito_taylor::{ItoTaylor, Variant};
 pub use level_set::{Gauge, LevelSet, Root};
 pub use moment_ode::MomentOde;
 pub use transition::OneTransition;
 pub use velocity::Velocity;
 
-use super::error::{Fault, Matrix};
+use super::error::Fault;
 use super::form::{Belief, Form};
-use super::start::Sizes;
-use crate::kernels::Health;
+use super::sizes::Sizes;
 use crate::model::At;
 use crate::ode::Work;
 use crate::rule::{Rule, Shape};
@@ -127,13 +125,4 @@ pub trait TimeUpdate<M>: Copy {
         work: &mut Work,
         scratch: &mut [T],
     ) -> Result<T::Mask, Stopped>;
-}
-
-/// The sick lanes of a kernel, or the fault if all are.
-#[inline(always)]
-pub(crate) fn lanes<T: Real>(health: Health<T>, matrix: Matrix) -> Result<T::Mask, Fault> {
-    match health.failed() {
-        Some(pivot) => Err(Fault::NotPositive { matrix, pivot }),
-        None => Ok(health.sick),
-    }
 }

@@ -1,16 +1,17 @@
 //! The moment differential equations (2012 §2.2; Särkkä 2007), in covariance and in square-root form.
 
 use super::continuous::{Continuous, check_integrator};
-use super::gain::Backward;
 use super::image::{ByRule, by_rule_noises, by_rule_scratch, by_rule_sizes};
 use super::integrate::{Lengths, integrate, integrate_scratch};
 use super::moments::{Moments, moments_len, moments_scratch};
 use super::noise::rate_scratch;
 use super::{Given, Plan, Stopped, TimeUpdate};
+use crate::filter::backward::Backward;
 use crate::filter::error::Fault;
 use crate::filter::form::{Belief, Form};
+use crate::filter::layout::Layout;
 use crate::filter::memory::larger;
-use crate::filter::start::{Layout, Sizes, countable};
+use crate::filter::sizes::{Sizes, countable};
 use crate::model::{At, Sde};
 use crate::ode::{Integrator, Work};
 use crate::rule::{Rule, Shape};

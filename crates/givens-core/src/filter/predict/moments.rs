@@ -6,6 +6,7 @@ use super::integrate::Carrier;
 use super::packed::{pack, packed_len, unpack, unpack_symmetric};
 use crate::filter::error::{Fault, Matrix};
 use crate::filter::form::Belief;
+use crate::filter::lanes::lanes;
 use crate::filter::memory::take;
 use crate::kernels::{cholesky, solve_lower, square};
 use crate::model::At;
@@ -55,7 +56,7 @@ impl<I: Image> Carrier for Moments<I> {
         if self.square_root {
             return positive(n, factor);
         }
-        super::lanes(cholesky(factor, n), Matrix::Predicted).map(|_| ())
+        lanes(cholesky(factor, n), Matrix::Predicted).map(|_| ())
     }
 
     fn covariance<T: Real>(&self, y: &[T], factor: &[T], cov: &mut [T]) {
@@ -128,7 +129,7 @@ impl<I: Image> System for Moments<I> {
                 s.iter_mut().step_by(n + 1).for_each(|x| *x = T::one());
             } else {
                 s.copy_from_slice(p);
-                super::lanes(cholesky(s, n), Matrix::Predicted)?;
+                lanes(cholesky(s, n), Matrix::Predicted)?;
             }
         }
         self.image.image(at, table, mean, s, &mut Imaged { velocity, dev, noise }, scratch)?;

@@ -1,8 +1,8 @@
 //! The noise of a continuous step beside the image of the state: [D E N], N of columns that are known and of columns
 //! that the rule has spread.
 
-use super::gain::Backward;
 use super::settle::{Moved, settle, settle_scratch};
+use crate::filter::backward::Backward;
 use crate::filter::error::{Fault, Quantity};
 use crate::filter::form::{Belief, Form};
 use crate::filter::memory::{larger, take};

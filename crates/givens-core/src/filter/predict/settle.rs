@@ -1,9 +1,10 @@
 //! The end of a step whose image and noise stand in one matrix [D E N]: P⁻ = D Dᵀ + E J Eᵀ + N Nᵀ.
 
-use super::gain::{Backward, gain_of_covariance, rotation, rotation_scratch};
-use super::lanes;
+use super::gain::{gain_of_covariance, rotation, rotation_scratch};
+use crate::filter::backward::Backward;
 use crate::filter::error::{Fault, Matrix};
 use crate::filter::form::{Belief, Form};
+use crate::filter::lanes::lanes;
 use crate::filter::memory::take;
 use crate::kernels::{add_outer, cholesky_scaled, copy_lower, downdate, square, tria};
 use crate::scalar::{Mask, Real};

@@ -1,12 +1,14 @@
 //! One step of a discrete model: m⁻ = E[f(x)], P⁻ = Cov[f(x)] + Q (2009 eq 38–42; 2011 Tables 1, 3).
 
-use super::gain::Backward;
 use super::settle::{Moved, settle, settle_scratch};
-use super::{Given, Plan, Stopped, TimeUpdate, lanes};
+use super::{Given, Plan, Stopped, TimeUpdate};
+use crate::filter::backward::Backward;
 use crate::filter::error::{Fault, Matrix, Quantity};
 use crate::filter::form::{Belief, Form};
+use crate::filter::lanes::lanes;
+use crate::filter::layout::Layout;
 use crate::filter::memory::{larger, put_columns, take};
-use crate::filter::start::Sizes;
+use crate::filter::sizes::{Sizes, countable};
 use crate::model::{Moving, Transition};
 use crate::ode::Work;
 use crate::rule::{Rule, Shape, Spread, spread_scratch};
@@ -26,6 +28,19 @@ impl OneTransition {
             + n
             + n * q
             + larger(spread_scratch(shape, n, n, sizes.model), settle_scratch(n, stride, smoothing))
+    }
+
+    /// The memory of a filter of this time update.
+    pub(crate) const fn layout(sizes: Sizes, shape: Shape, smoothing: bool) -> Layout {
+        let predict = if countable(sizes, shape) { Self::scratch(sizes, shape, smoothing) } else { 0 };
+        Layout::new(sizes, shape, smoothing, predict)
+    }
+}
+
+impl Sizes {
+    /// The sizes of a discrete model alone, for a rule of that shape.
+    pub fn of_model<M: Transition>(model: &M, shape: Shape) -> Self {
+        OneTransition.sizes(model, shape)
     }
 }
 

@@ -4,7 +4,7 @@ use super::image::{Image, Imaged};
 use super::noise::diffusion;
 use crate::filter::error::{Fault, Quantity};
 use crate::filter::memory::take;
-use crate::filter::start::Sizes;
+use crate::filter::sizes::Sizes;
 use crate::model::{At, Sde, drift_scratch};
 use crate::scalar::{Mask, Real};
 

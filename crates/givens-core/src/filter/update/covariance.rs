@@ -5,8 +5,8 @@ use super::square_root::pivots;
 use super::{InnovationMut, Sensed};
 use crate::filter::error::{Fault, Matrix};
 use crate::filter::form::Belief;
+use crate::filter::lanes::lanes;
 use crate::filter::memory::{larger, put_columns, take};
-use crate::filter::predict::lanes;
 use crate::kernels::{add_outer, cholesky_scaled, dot, solve_lower_rows, square};
 use crate::scalar::{Mask, Real};
 

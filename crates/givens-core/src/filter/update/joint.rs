@@ -1,10 +1,20 @@
 //! One triangularisation: [T11 0; T21 T22] = Tria([Z S_R; X 0]) (2010 eq 36; 2011 eq 27).
 
 use super::Sensed;
-use super::square_root::Below;
 use crate::filter::memory::{larger, put_columns, put_identity, take};
 use crate::kernels::{sweep, tria};
 use crate::scalar::Real;
+
+/// Which rows stand below Z in the block.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Below {
+    /// X.
+    State,
+    /// X, then I for the smoother.
+    Both,
+    /// I alone; the state's rows follow by a product. So a downdate meets no pivot that is zero for want of variance.
+    Unit,
+}
 
 /// Scalars of scratch of [`joint`], for `rest` columns of E and noise.
 pub(super) const fn joint_scratch(n: usize, d: usize, rest: usize) -> usize {

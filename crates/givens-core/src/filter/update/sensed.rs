@@ -3,8 +3,8 @@
 use super::{InnovationMut, Measurement};
 use crate::filter::error::{Fault, Matrix, Quantity};
 use crate::filter::form::Belief;
+use crate::filter::lanes::lanes;
 use crate::filter::memory::{put_columns, take};
-use crate::filter::predict::lanes;
 use crate::kernels::tria;
 use crate::model::{At, Observation, Sensed as SensedMap};
 use crate::rule::{Rule, Shape, Spread};

@@ -2,14 +2,14 @@
 //!
 //! X = S [I 0], so the same rotations of I give A and B with T21 = S A and T22 = S B: what a smoother needs.
 
-use super::joint::{joint, joint_scratch};
+use super::joint::{Below, joint, joint_scratch};
 use super::posterior::{Posterior, Rows};
 use super::separate::{separate, separate_scratch};
 use super::{Block, InnovationMut, Sensed};
 use crate::filter::error::{Fault, Matrix};
 use crate::filter::form::Belief;
+use crate::filter::lanes::split;
 use crate::filter::memory::{larger, take};
-use crate::filter::predict::split;
 use crate::kernels::{copy_lower, dot, downdate, product_lower};
 use crate::scalar::{Mask, Real};
 
@@ -18,17 +18,6 @@ pub(super) const fn square_root_scratch(n: usize, d: usize, rest: usize, smoothi
     let rows = if smoothing { d + 2 * n } else { d + n };
     let block = larger(joint_scratch(n, d, rest), separate_scratch(n, d, rest));
     n * n + 2 * n + (d + n) + rows * (d + n) + block
-}
-
-/// Which rows stand below Z in the block.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Below {
-    /// X.
-    State,
-    /// X, then I for the smoother.
-    Both,
-    /// I alone; the state's rows follow by a product. So a downdate meets no pivot that is zero for want of variance.
-    Unit,
 }
 
 #[inline(always)]

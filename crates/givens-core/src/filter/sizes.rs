@@ -1,9 +1,7 @@
-//! The memory of a filter, of a length known before it starts.
+//! What the length of a filter's memory depends on.
 
 use super::memory::larger;
-use super::predict::{OneTransition, TimeUpdate, accumulate_scratch};
-use super::update::update_scratch;
-use crate::model::{Observation, Transition, linear_scratch, points_scratch};
+use crate::model::{Observation, linear_scratch, points_scratch};
 use crate::rule::Shape;
 
 /// The sizes of a model and its sensors, as far as a filter's memory depends on them.
@@ -55,11 +53,6 @@ impl Sizes {
         Self { model: larger(self.model, larger(model, sensor)), ..self }
     }
 
-    /// The sizes of a discrete model alone, for a rule of that shape.
-    pub fn of_model<M: Transition>(model: &M, shape: Shape) -> Self {
-        OneTransition.sizes(model, shape)
-    }
-
     /// Room for this sensor too.
     #[must_use]
     pub fn with_sensor<H: Observation>(self, sensor: &H, shape: Shape) -> Self {
@@ -106,56 +99,4 @@ pub(super) const ENDLESS: usize = usize::MAX / 4;
 /// Whether arrays of so many scalars, and a few times that, are a number that a `usize` holds.
 pub(super) const fn fits(rows: usize, columns: usize, layers: usize) -> bool {
     rows.saturating_mul(columns).saturating_mul(layers) < usize::MAX / 128
-}
-
-/// Where the arrays of a filter stand in its memory.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Layout {
-    pub sizes: Sizes,
-    pub shape: Shape,
-    /// Whether predictions leave what a smoother needs.
-    pub smoothing: bool,
-    /// Whether predictions leave a root of their own for the update.
-    pub moved: bool,
-    /// All of the filter's scalars.
-    pub len: usize,
-}
-
-impl Layout {
-    /// That of a discrete method.
-    pub const fn discrete(sizes: Sizes, shape: Shape, smoothing: bool) -> Self {
-        let predict =
-            if countable(sizes, shape) { OneTransition::scratch(sizes, shape, smoothing) } else { 0 };
-        Self::new(sizes, shape, smoothing, predict)
-    }
-
-    /// That of any method, whose time update needs `predict` scalars of scratch.
-    pub const fn new(sizes: Sizes, shape: Shape, smoothing: bool, predict: usize) -> Self {
-        let Sizes { states: n, measures: d, measurement_noise: r, .. } = sizes;
-        if !countable(sizes, shape) {
-            return Self { sizes, shape, smoothing, moved: false, len: usize::MAX };
-        }
-        // mean, factor, covariance, the rounding in the factor, and what was known before an update; innovation (measured,
-        // predicted, ν, factor, white, NIS, log-likelihood); gain and conditional root, twice where a gap of several steps
-        // is chained, and what updates have learnt
-        let belief = 4 * n + 2 * n * n;
-        let innovation = 4 * d + d * d + 2;
-        let back = if smoothing { 5 * n * n + n } else { 0 };
-        let kept = shape.table + sizes.controls + sizes.parameters + belief + innovation + back;
-        let predict = predict + if smoothing { accumulate_scratch(n) } else { 0 };
-        let update = update_scratch(n, d, r, shape, sizes.model, smoothing);
-        let work = larger(predict, update);
-        Self { sizes, shape, smoothing, moved: false, len: kept + work }
-    }
-
-    /// The same with room for the root that a prediction leaves for the update.
-    pub const fn with_moved_root(self) -> Self {
-        let moved = Self { moved: true, ..self };
-        Self { len: self.len.saturating_add(moved.moved_len()), ..moved }
-    }
-
-    /// Scalars of that root.
-    pub const fn moved_len(&self) -> usize {
-        if self.moved { self.sizes.states * self.sizes.states } else { 0 }
-    }
 }

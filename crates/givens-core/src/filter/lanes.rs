@@ -1,0 +1,28 @@
+//! From the health of a kernel to a fault.
+
+use super::error::{Fault, Matrix};
+use crate::kernels::Health;
+use crate::scalar::Real;
+
+/// The sick lanes of a kernel, or the fault if all are.
+#[inline(always)]
+pub(crate) fn lanes<T: Real>(health: Health<T>, matrix: Matrix) -> Result<T::Mask, Fault> {
+    match health.failed() {
+        Some(pivot) => Err(Fault::NotPositive { matrix, pivot }),
+        None => Ok(health.sick),
+    }
+}
+
+/// The fault of a block of two: pivots from `first` on belong to the second matrix.
+#[inline(always)]
+pub(crate) fn split<T: Real>(
+    health: Health<T>,
+    first: usize,
+    upper: Matrix,
+    lower: Matrix,
+) -> Result<T::Mask, Fault> {
+    match health.failed() {
+        Some(pivot) if pivot >= first => Err(Fault::NotPositive { matrix: lower, pivot: pivot - first }),
+        _ => lanes(health, upper),
+    }
+}

@@ -91,6 +91,11 @@ fn fault(model: &Model, choice: Option<&Choice>, fault: &Fault) -> String {
             }
             _ => fault.to_string(),
         },
+        Fault::Unresolved { component } => format!(
+            "the steps are too long for the way back of {}, which a filter alone need not show; more steps (--set \
+             substeps=…) or a solver that chooses them (--set solver=dp5)",
+            state(component)
+        ),
         Fault::SingularFactor { pivot } => format!(
             "the factor of the covariance is singular at pivot {} (state {}): it is known exactly, and this time update \
              divides by the factor; --set time_update=ito-taylor does not",

@@ -15,6 +15,7 @@ impl Failures {
         let kind = match error.fault {
             Fault::NotPositive { matrix, .. } => matrix.name(),
             Fault::SingularInnovation { .. } => "singular innovation",
+            Fault::Unresolved { .. } => "steps too long for the smoother",
             Fault::SingularFactor { .. } => "singular factor",
             Fault::NotFinite { .. } => "not a number",
             Fault::Indistinct { .. } => "points that coincide",

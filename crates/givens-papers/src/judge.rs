@@ -45,6 +45,9 @@ impl Claim {
         of_ours: f64,
     ) -> Self {
         let apart = spread * (1.0 + of_ours / of_theirs).sqrt();
+        if apart.is_nan() {
+            return Self::lost(what, shown(published), shown(ours), "one run tells no spread");
+        }
         let z = if apart > 0.0 { (published - ours).abs() / apart } else { f64::INFINITY };
         Self::of(what, shown(published), format!("{} ± {}", shown(ours), shown(spread)), z)
     }

@@ -171,6 +171,11 @@ pub enum Fault {
         /// The pivot, from zero.
         pivot: usize,
     },
+    /// Equal steps of a solver are too long for the way back of a smoother, which the belief itself need not show.
+    Unresolved {
+        /// The component of the state, from zero.
+        component: usize,
+    },
     /// The solver of a time update went no further.
     Solver {
         /// Why.
@@ -232,6 +237,12 @@ impl fmt::Display for Fault {
             }
             Fault::StateDependentDiffusion => f.write_str(
                 "the diffusion depends on the state; time updates for such a model: moment-ode, euler-maruyama",
+            ),
+            Fault::Unresolved { component } => write!(
+                f,
+                "the steps are too long for the way back of component {} of the state: take more of them, or a solver that \
+                 chooses them",
+                component + 1
             ),
             Fault::SingularFactor { pivot } => write!(
                 f,

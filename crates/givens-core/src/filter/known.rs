@@ -110,9 +110,9 @@ impl<X: Method, M, T: Real, B: AsRef<[T]>> Filter<'_, X, M, T, B> {
         }
     }
 
-    /// How often it was predicted, or a smoother has taken what it has learnt.
-    pub(crate) fn moves(&self) -> usize {
-        self.moves
+    /// How often it was predicted, or a smoother has taken what it has learnt, and its time.
+    pub(crate) fn moves(&self) -> (usize, f64) {
+        (self.moves, self.time)
     }
 
     /// The shape of the filter's rule, for [`Sizes::with_sensor`].

@@ -152,6 +152,8 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
         z: &[f64],
         present: Option<&[bool]>,
     ) -> Result<(), StepError> {
+        self.present = 0;
+        self.parts().scores.fill(T::zero());
         let (time, step, d) = (self.time, self.step, sensor.measures());
         let fail = |fault| StepError { fault, time, step };
         for (of, expected, found) in [
@@ -174,7 +176,6 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
         }
         self.make_room(sensor).map_err(fail)?;
         let (rule, block, moved) = (self.method.rule(), self.method.block(), self.moved);
-        self.present = 0;
         let Parts {
             table,
             u,
@@ -203,7 +204,6 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
             belief.moved = &mut [];
         }
         let measurement = Measurement { z: measured, present };
-        scores.fill(T::zero());
         let (nis, log_likelihood) = scores.split_at_mut(1);
         let (nis, log_likelihood) = (&mut nis[0], &mut log_likelihood[0]);
         let mut innovation = InnovationMut { predicted, nu, factor, white, nis, log_likelihood };

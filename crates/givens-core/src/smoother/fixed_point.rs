@@ -18,7 +18,7 @@ pub struct FixedPoint<T, B> {
     states: usize,
     square_root: bool,
     /// What [`Filter::moves`] was when this last took part: since then no move may have been missed.
-    seen: usize,
+    seen: (usize, f64),
     memory: B,
     scalar: PhantomData<T>,
 }

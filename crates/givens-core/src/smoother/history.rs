@@ -10,7 +10,8 @@ use core::marker::PhantomData;
 
 /// Time updates of a filter, one record each: a ring that forgets the oldest when it is full.
 ///
-/// With room for every update it serves the fixed-interval smoother; with room for L, the fixed-lag smoother.
+/// With room for every update it serves the fixed-interval smoother; with room for L, the fixed-lag smoother. It follows one
+/// filter: that filter is predicted by it alone, and no clone of the filter takes its place.
 #[derive(Clone, Debug)]
 pub struct History<T, B> {
     pub(super) states: usize,
@@ -19,7 +20,7 @@ pub struct History<T, B> {
     pub(super) oldest: usize,
     pub(super) count: usize,
     /// What [`Filter::moves`] was when the newest record was made or completed: since then none may have been missed.
-    pub(super) seen: usize,
+    pub(super) seen: (usize, f64),
     pub(super) memory: B,
     pub(super) scalar: PhantomData<T>,
 }

@@ -5,7 +5,8 @@ use super::history::History;
 use super::rotated::{Coordinates, Rotated};
 use crate::filter::memory::take;
 use crate::filter::{Belief, Filter, Form, Grow, Over, Prior, StepError};
-use crate::scalar::Real;
+use crate::kernels::{solve_lower, solve_lower_rows};
+use crate::scalar::{Mask, Real};
 
 impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
     /// Goes back from the filter's present belief over at most `steps` records, the latest first. `visit` is called
@@ -30,7 +31,7 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
     }
 
     /// The same from a belief at the time of the latest record but `skip`, with every update at that time: the filter's own
-    /// before its next prediction.
+    /// before its next prediction. In square-root form the latest record must be [closed](Self::close) if none is skipped.
     ///
     /// # Errors
     /// As [`smooth`](Self::smooth).
@@ -53,7 +54,8 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
     }
 
     /// The same from a smoothed belief that another history has found at the end of the newest record, which must be
-    /// [closed](Self::close): states between two rows are smoothed beside the recursion over the rows.
+    /// [closed](Self::close): states between two rows are smoothed beside the recursion over the rows. Where the filters of
+    /// both have come to different beliefs, it is to be [seen from](Smoothed::seen_from) this one's.
     ///
     /// # Errors
     /// As [`smooth`](Self::smooth).
@@ -171,6 +173,21 @@ pub struct Smoothed<'a, T> {
     pub shift: &'a mut [T],
     /// A root of the covariance of u, n × n. Empty in covariance form.
     pub root: &'a mut [T],
+}
+
+impl<T: Real> Smoothed<'_, T> {
+    /// The same belief in the coordinates of another, of the given `mean` and lower triangular `factor`: writes its
+    /// `shift` and `root`. A coordinate that the factor does not reach is as free as ever. Square-root form only.
+    pub fn seen_from(&self, mean: &[T], factor: &[T], shift: &mut [T], root: &mut [T]) {
+        let n = mean.len();
+        shift.iter_mut().zip(&*self.belief.mean).zip(mean).for_each(|((to, &x), &m)| *to = x - m);
+        root.copy_from_slice(self.belief.factor);
+        solve_lower(factor, n, shift);
+        solve_lower_rows(factor, n, root, n);
+        for i in (0..n).filter(|i| factor[i * n + i].same(T::zero()).all()) {
+            root[i * n + i] = T::one();
+        }
+    }
 }
 
 /// The belief on its way back.

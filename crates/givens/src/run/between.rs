@@ -1,7 +1,7 @@
 //! States at any time, beside the recursion over the rows: no other number changes by asking.
 
 use super::recorder::{OwnFilter, push, put};
-use crate::filter::{Form, Over, StepError};
+use crate::filter::{Belief, Form, Over, StepError};
 use crate::model::Observation;
 use crate::smoother::{History, Smoothed};
 use crate::{Estimates, Row};
@@ -25,6 +25,10 @@ struct Side {
     index: usize,
     /// The row at its end.
     row: usize,
+    /// What its filter believes there, which is not to the bit what the filter of the rows does.
+    mean: Vec<f64>,
+    factor: Vec<f64>,
+    cov: Vec<f64>,
 }
 
 impl<'t> Between<'t> {
@@ -56,7 +60,14 @@ impl<'t> Between<'t> {
                 filter.set_controls(row.u)?;
                 filter.update_present(sensors, row.z, present)?;
                 history.close(&mut filter)?;
-                self.sides.push(Side { history, index: self.out.len() - 1, row: finished.len() });
+                self.sides.push(Side {
+                    history,
+                    index: self.out.len() - 1,
+                    row: finished.len(),
+                    mean: filter.mean().to_vec(),
+                    factor: filter.factor().to_vec(),
+                    cov: filter.cov(),
+                });
             }
         }
         Ok(())
@@ -85,15 +96,26 @@ impl<'t> Between<'t> {
         row: usize,
         time: f64,
         smoothed: &Smoothed<f64>,
+        filtered: (&[f64], &[f64]),
     ) -> Result<(), StepError> {
         while let Some(mut side) = self.sides.pop_if(|side| side.row >= row) {
             if side.row == row {
                 let (out, index) = (&mut self.out, side.index);
-                side.history.smooth_on(time, smoothed, |age, smoothed| {
+                let put = |age: usize, smoothed: &Smoothed<f64>| {
                     if age == 1 {
                         put::<F>(out, index, &smoothed.belief);
                     }
-                })?;
+                };
+                if !F::SQUARE_ROOT || alike((&side.mean, &side.cov), filtered) {
+                    side.history.smooth_on(time, smoothed, put)?;
+                    continue;
+                }
+                let (mut mean, mut factor) = (smoothed.belief.mean.to_vec(), smoothed.belief.factor.to_vec());
+                let (mut shift, mut root) = (side.mean.clone(), side.factor.clone());
+                smoothed.seen_from(&side.mean, &side.factor, &mut shift, &mut root);
+                let belief = Belief { mean: &mut mean, factor: &mut factor, cov: &mut [], moved: &mut [] };
+                let seen = Smoothed { belief, shift: &mut shift, root: &mut root };
+                side.history.smooth_on(time, &seen, put)?;
             }
         }
         Ok(())
@@ -114,3 +136,15 @@ impl<'t> Between<'t> {
         self.out
     }
 }
+
+/// Whether two beliefs are the same but for rounding: what is nearly known is then spared a division by its root.
+fn alike((mean, cov): (&[f64], &[f64]), (other, others): (&[f64], &[f64])) -> bool {
+    let n = mean.len();
+    let deviation = |i: usize| cov[i * n + i].sqrt();
+    let near = |i: usize| (mean[i] - other[i]).abs() <= ALIKE * (deviation(i) + mean[i].abs());
+    let apart =
+        |i: usize, j: usize| (cov[i * n + j] - others[i * n + j]).abs() / (deviation(i) * deviation(j));
+    (0..n).all(near) && (0..n * n).all(|k| !(apart(k / n, k % n) > ALIKE))
+}
+
+const ALIKE: f64 = 1e-13;

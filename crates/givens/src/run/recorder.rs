@@ -164,9 +164,10 @@ impl<'t, 'm, X: Over<M>, M, H: Observation> Recorder<'t, 'm, X, M, H> {
         let time = out.time[last];
         let (mut wrong, between) = (None, &mut self.between);
         let put = |age: usize, smoothed: &Smoothed<f64>| {
-            put::<X::Form>(out, last - age, &smoothed.belief);
             let row = last - age;
-            wrong = wrong.or(between.back::<X::Form>(row, out.time[row], smoothed).err());
+            put::<X::Form>(out, row, &smoothed.belief);
+            let filtered = (out.filtered_mean(row), out.filtered_cov(row));
+            wrong = wrong.or(between.back::<X::Form>(row, out.time[row], smoothed, filtered).err());
         };
         let start = Prior { time, mean: &self.last.0, factor: &self.last.1, cov: &self.last.2 };
         if failed {

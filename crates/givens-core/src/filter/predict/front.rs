@@ -87,7 +87,7 @@ impl<I: Image> System for Front<I> {
         Ok(())
     }
 
-    /// In standard deviations: |Δx̄_i| and |ΔM_ij| against σ_i = ‖row i of M‖.
+    /// In standard deviations: |Δx̄_i|, |ΔM_ij| and |ΔX_ij| against σ_i = ‖row i of M‖.
     fn error<T: Real>(&self, tolerance: Tolerance, before: &[T], after: &[T], error: &[T]) -> f64 {
         let n = self.image.states();
         let row = |y: &[T], i: usize| {
@@ -98,7 +98,8 @@ impl<I: Image> System for Front<I> {
         for i in 0..n {
             let allowed = tolerance.of(row(before, i).max(row(after, i)));
             let size = before[i].first().abs().max(after[i].first().abs());
-            let spread = error[n + i * n..][..n].iter().map(|e| (e.first().abs(), allowed));
+            let rows = error[n..].chunks_exact(n).skip(i).step_by(n).flatten();
+            let spread = rows.map(|e| (e.first().abs(), allowed));
             let mean = (error[i].first().abs(), allowed.max(4.0 * T::EPSILON * size));
             for (error, allowed) in spread.chain(core::iter::once(mean)) {
                 let size = if error == 0.0 { 0.0 } else { error / allowed };
@@ -117,6 +118,10 @@ impl<I: Image> Carrier for Front<I> {
 
     fn image(&self) -> I {
         self.image
+    }
+
+    fn alone(&self) -> Self {
+        Self { carried: false, ..*self }
     }
 
     fn begin<T: Real>(&self, belief: &Belief<T>, y: &mut [T]) {

@@ -22,6 +22,8 @@ pub(super) trait Carrier: System<Fault = Fault> {
     type Image: Image;
     /// It.
     fn image(&self) -> Self::Image;
+    /// The same without X.
+    fn alone(&self) -> Self;
     /// The state of the solver at a belief.
     fn begin<T: Real>(&self, belief: &Belief<T>, y: &mut [T]);
     /// The lower triangular root of the covariance.
@@ -69,60 +71,37 @@ pub(super) struct Lengths {
 }
 
 /// Moves `belief` over the gap of `given.at`.
+///
+/// With `back`, X goes along. Steps of equal length are those of the belief alone; a solver that chooses its steps goes over
+/// the gap twice, once with X in mind and once without: what is believed does not depend on whether it is smoothed, and X
+/// may move where the belief stands still.
 #[inline(always)]
 pub(super) fn integrate<T: Real, C: Carrier, F: Form, M, R>(
     integrator: &Integrator,
     carrier: &C,
     given: &Given<T, M, R>,
     belief: &mut Belief<T>,
-    mut back: Option<&mut Backward<T>>,
+    back: Option<&mut Backward<T>>,
     work: &mut Work,
     mut scratch: &mut [T],
 ) -> Result<T::Mask, Stopped> {
     let n = belief.mean.len();
-    let (at, table) = (&given.at, given.table);
     let y = take(&mut scratch, carrier.len());
     let next = take(&mut scratch, n * n);
-    carrier.begin(belief, y);
     let stopped =
         |stop: Stop<Fault>| Stopped { reached: Some(stop.time), fault: fault(&stop, n, integrator) };
     let mut sick = T::Mask::splat(false);
-    match &mut back {
-        Some(back) if F::SQUARE_ROOT => {
-            back.conditional.fill(T::zero());
-            let (plus, minus) = carrier.image().noises();
-            let lengths =
-                Lengths { state: carrier.len(), system: carrier.scratch(), image: carrier.image().scratch() };
-            let (own, rest) = scratch.split_at_mut(conditional_scratch(n, plus + minus, lengths));
-            let mut failed = None;
-            let gather = |segment: &Segment<T>| match conditional(
-                carrier,
-                at,
-                table,
-                segment,
-                back.conditional,
-                own,
-            ) {
-                Ok(mask) => sick = sick | mask,
-                Err(fault) => failed = failed.or(Some(Stopped { reached: Some(segment.t), fault })),
-            };
-            integrator.solve(carrier, at, table, y, work, gather, rest).map_err(stopped)?;
-            failed.map_or(Ok(()), Err)?;
-        }
-        _ => integrator.advance(carrier, at, table, y, work, scratch).map_err(stopped)?,
-    }
-    carrier.factor(y, next)?;
+    let again = back.is_none() || integrator.solver.adaptive();
     if let Some(back) = back {
-        if F::SQUARE_ROOT {
-            // Ω = (S⁻¹ X)ᵀ
-            for (j, row) in back.gain.chunks_exact_mut(n).enumerate() {
-                gather(carrier.carried(y), n, j, row);
-                solve_lower(next, n, row);
-            }
-        } else {
-            // G = S₀ Xᵀ (P⁻)⁻¹
-            gain_of_covariance(carrier.carried(y), n, belief.factor, next, back);
-        }
+        carrier.begin(belief, y);
+        sick = way_back::<T, C, F, M, R>(integrator, carrier, given, belief, y, next, back, work, scratch)?;
+    }
+    let carrier = carrier.alone();
+    let y = &mut y[..carrier.len()];
+    if again {
+        carrier.begin(belief, y);
+        integrator.advance(&carrier, &given.at, given.table, y, work, scratch).map_err(stopped)?;
+        carrier.factor(y, next)?;
     }
     belief.mean.copy_from_slice(&y[..n]);
     if !F::SQUARE_ROOT {
@@ -133,6 +112,70 @@ pub(super) fn integrate<T: Real, C: Carrier, F: Form, M, R>(
         carrier.root(y, next, belief.moved);
     }
     Ok(sick)
+}
+
+/// Moves `y` over the gap, its factor to `next`, and finds what a smoother needs to come back.
+#[inline(always)]
+fn way_back<T: Real, C: Carrier, F: Form, M, R>(
+    integrator: &Integrator,
+    carrier: &C,
+    given: &Given<T, M, R>,
+    belief: &Belief<T>,
+    y: &mut [T],
+    next: &mut [T],
+    back: &mut Backward<T>,
+    work: &mut Work,
+    scratch: &mut [T],
+) -> Result<T::Mask, Stopped> {
+    let n = belief.mean.len();
+    let (at, table) = (&given.at, given.table);
+    let stopped =
+        |stop: Stop<Fault>| Stopped { reached: Some(stop.time), fault: fault(&stop, n, integrator) };
+    let mut sick = T::Mask::splat(false);
+    if F::SQUARE_ROOT {
+        back.conditional.fill(T::zero());
+        let (plus, minus) = carrier.image().noises();
+        let lengths =
+            Lengths { state: carrier.len(), system: carrier.scratch(), image: carrier.image().scratch() };
+        let (own, rest) = scratch.split_at_mut(conditional_scratch(n, plus + minus, lengths));
+        let mut failed = None;
+        let gather =
+            |segment: &Segment<T>| match conditional(carrier, at, table, segment, back.conditional, own) {
+                Ok(mask) => sick = sick | mask,
+                Err(fault) => failed = failed.or(Some(Stopped { reached: Some(segment.t), fault })),
+            };
+        integrator.solve(carrier, at, table, y, work, gather, rest).map_err(stopped)?;
+        failed.map_or(Ok(()), Err)?;
+    } else {
+        integrator.advance(carrier, at, table, y, work, scratch).map_err(stopped)?;
+    }
+    carrier.factor(y, next)?;
+    // Ω = (S⁻¹ X)ᵀ
+    for (j, row) in back.gain.chunks_exact_mut(n).enumerate() {
+        gather(carrier.carried(y), n, j, row);
+        solve_lower(next, n, row);
+    }
+    resolved(back, n)?;
+    if !F::SQUARE_ROOT {
+        // G = S₀ Xᵀ (P⁻)⁻¹
+        gain_of_covariance(carrier.carried(y), n, belief.factor, next, back);
+    }
+    Ok(sick)
+}
+
+/// Ω Ωᵀ + Γ Γᵀ = I whatever the model, and Ω Ωᵀ ≤ I where Γ is not computed. Equal steps that are too long for X break it.
+const ROUGH: f64 = 0.25;
+
+fn resolved<T: Real>(back: &Backward<T>, n: usize) -> Result<(), Fault> {
+    for (i, omega) in back.gain.chunks_exact(n).enumerate() {
+        let rest = back.conditional.chunks_exact(n).nth(i).map(|gamma| dot(gamma, gamma));
+        let whole = dot(omega, omega) + rest.unwrap_or(T::zero());
+        let under = rest.is_some() && (whole.lt(T::of(1.0 - ROUGH))).all();
+        if under || (T::of(1.0 + ROUGH).lt(whole)).all() {
+            return Err(Fault::Unresolved { component: i });
+        }
+    }
+    Ok(())
 }
 
 /// A solver's end in the words of a step.

@@ -39,6 +39,10 @@ impl<I: Image> Carrier for Moments<I> {
         self.image
     }
 
+    fn alone(&self) -> Self {
+        Self { carried: false, ..*self }
+    }
+
     fn begin<T: Real>(&self, belief: &Belief<T>, y: &mut [T]) {
         let n = self.image.states();
         let (mean, rest) = y.split_at_mut(n);
@@ -190,10 +194,10 @@ impl<I: Image> System for Moments<I> {
         Ok(())
     }
 
-    /// In standard deviations: |Δm_i| and |ΔS_ij| against those of state i, |ΔP_ij| against both.
+    /// In standard deviations: |Δm_i|, |ΔS_ij| and |ΔX_ij| against those of state i, |ΔP_ij| against both.
     fn error<T: Real>(&self, tolerance: Tolerance, before: &[T], after: &[T], error: &[T]) -> f64 {
         let n = self.image.states();
-        let ((m0, l0, _), (m1, l1, _), (dm, dl, _)) =
+        let ((m0, l0, _), (m1, l1, _), (dm, dl, dx)) =
             (self.parts(before), self.parts(after), self.parts(error));
         let sigma = |i: usize| {
             let at = packed_len(i);
@@ -220,6 +224,7 @@ impl<I: Image> System for Moments<I> {
                 let other = || 0.5 * (own * sigma(j) + tolerance.of(sigma(j)) * sigma(i));
                 note(dl[packed_len(i) + j], if self.square_root { own } else { other() });
             }
+            dx.iter().skip(i * n).take(n).for_each(|&error| note(error, own));
         }
         worst
     }

@@ -1,6 +1,6 @@
 //! Figure 5: the divergence over the number of dimensions.
 
-use super::moments::{self, CDKF, CKF, OWN, RULES, Scores, Setting, not_below, scores};
+use super::moments::{self, CDKF, CKF, OWN, RULES, Scores, Setting, not_below, scores, widens};
 use super::multiquadric::POWERS;
 use crate::drawing::{axis, figure};
 use crate::{Claim, Expected, Page, Plan, Trouble};
@@ -40,7 +40,7 @@ pub(super) fn run(plan: &Plan) -> Result<Page, Trouble> {
             };
             (0..=LAST).filter_map(at).collect()
         };
-        let x = Axis { range: Some([0.0, 100.0]), ..axis("dimensions n", Scale::Linear) };
+        let x = Axis { range: Some([0.0, 102.0]), ..axis("dimensions n", Scale::Linear) };
         let y = Axis { range: Some([0.0, 12.0]), ..axis("KL divergence", Scale::Linear) };
         moments::panel(&all, rule, heading, [x, y], |setting| setting.states as f64, published)
     };
@@ -63,8 +63,8 @@ pub(super) fn run(plan: &Plan) -> Result<Page, Trouble> {
     })
 }
 
-const BY_EYE: &str = "published value read by eye; print does not say how the covariances were drawn, and the level depends \
-                      on it";
+const BY_EYE: &str = "read by eye; print does not say how the covariances were drawn, on which the level depends: the CDKF's at \
+                      p = 1, n = 100 is 1.3 with A uniform on (0, 1), 14.1 with a uniform spectrum";
 
 fn statements(all: &[Scores]) -> Vec<Claim> {
     let never = |rule: usize| {
@@ -86,13 +86,27 @@ fn statements(all: &[Scores]) -> Vec<Claim> {
             |scores: &&Scores| (1..POWERS.len()).all(|p| scores.mean(p, rule) > scores.mean(p - 1, rule));
         all.iter().filter(falls).count()
     };
+    let falls = |rule: usize| {
+        let pairs = all.windows(2).flat_map(|pair| (0..POWERS.len()).map(move |power| (pair, power)));
+        let fall = |(pair, power): &(&[Scores], usize)| {
+            let noise = pair[0].spread(*power, rule).hypot(pair[1].spread(*power, rule));
+            pair[1].mean(*power, rule) < pair[0].mean(*power, rule) - 3.0 * noise
+        };
+        pairs.filter(fall).count()
+    };
+    let (gap, gaps) = widens(all);
     let (least, harder) = (grows(CDKF).min(grows(CKF)), [ordered(CDKF), ordered(CKF)]);
     vec![
         Claim::statement("the EKF computes a variance of zero", of(ekf), ekf == all.len()),
         Claim::statement("the unscented transform often fails to give a variance", of(ukf), ukf > 0),
         Claim::statement(
             "the CDKF and the CKF degrade as n grows, for every p",
-            format!("from n = 5 to 100 the divergence grows at least {least:.1}-fold"),
+            format!(
+                "from n = 5 to 100 the divergence grows at least {least:.1}-fold; between neighbouring sizes it falls by more \
+                 than 3 σ {} times (CDKF), {} times (CKF)",
+                falls(CDKF),
+                falls(CKF)
+            ),
             least > 1.0,
         ),
         Claim::statement(
@@ -104,6 +118,11 @@ fn statements(all: &[Scores]) -> Vec<Claim> {
             "for all p the CDKF is inferior to the CKF",
             if worse.is_empty() { "at every n".to_owned() } else { listed(&worse) },
             worse.is_empty(),
+        ),
+        Claim::statement(
+            "the CDKF deviates the more from the CKF, the higher the dimension",
+            format!("its excess: {gaps}"),
+            gap,
         ),
     ]
 }

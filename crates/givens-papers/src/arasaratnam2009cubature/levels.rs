@@ -16,6 +16,8 @@ pub(super) const QUANTITIES: [&str; 3] = ["position, m", "velocity, m/s", "turn 
 /// The first scan that counts.
 pub(super) const FIRST: usize = 50;
 
+const LOST: &str = "further off than 500 m (these stand in the errors)";
+
 /// One run of one filter, from 50 s on.
 pub(super) struct Track {
     /// Squared errors of position, velocity and turn rate (°/s).
@@ -123,8 +125,6 @@ impl Levels {
         table
     }
 }
-
-const LOST: &str = "further off than 500 m (these stand in the errors)";
 
 fn mean(rows: &[[f64; 3]], i: usize) -> f64 {
     rows.iter().map(|row| row[i]).sum::<f64>() / rows.len() as f64

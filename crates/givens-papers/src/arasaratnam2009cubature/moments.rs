@@ -44,7 +44,12 @@ impl Scores {
         mean(&mut self.divergences[power][rule].iter().copied())
     }
 
-    /// The standard deviation of that mean over replications.
+    /// By how much the mean divergence of the CDKF exceeds that of the CKF.
+    pub fn gap(&self, power: usize) -> f64 {
+        self.mean(power, CDKF) - self.mean(power, CKF)
+    }
+
+    /// The standard deviation of a rule's mean over replications.
     pub fn spread(&self, power: usize, rule: usize) -> f64 {
         spread(&self.divergences[power][rule], mean)
     }
@@ -138,6 +143,17 @@ pub(super) fn failures(all: &[Scores]) -> Vec<(String, Failures)> {
     sums
 }
 
+/// Whether the gap between CDKF and CKF is wider at the last setting than at the first, for every power, and in words.
+pub(super) fn widens(all: &[Scores]) -> (bool, String) {
+    let (Some(first), Some(last)) = (all.first(), all.last()) else { return (false, String::new()) };
+    let powers = 0..POWERS.len();
+    let gaps = powers
+        .clone()
+        .map(|power| format!("{:.2} to {:.2} (p = {})", first.gap(power), last.gap(power), POWERS[power]));
+    let words = gaps.collect::<Vec<_>>().join(", ");
+    (powers.clone().all(|power| last.gap(power) > first.gap(power)), words)
+}
+
 /// Where the divergence of the cubature rule is not below that of the central difference: how many settings, and which.
 pub(super) fn not_below(all: &[Scores]) -> Vec<(Setting, i32)> {
     let worse = |scores: &Scores, power: usize| scores.mean(power, CKF) >= scores.mean(power, CDKF);
@@ -161,7 +177,8 @@ pub(super) fn panel(
     let mut marks = Vec::new();
     for (power, p) in POWERS.iter().enumerate() {
         let points = all.iter().map(|scores| [x(&scores.setting), scores.mean(power, rule)]).collect();
-        marks.push(line(&format!("p = {p}"), COLOURS[power], points));
+        let sign = if *p < 0 { "−" } else { "" };
+        marks.push(line(&format!("p = {sign}{}", p.abs()), COLOURS[power], points));
     }
     for power in 0..POWERS.len() {
         let dots = Shape::Dots { points: published(power), radius: 4.5, hollow: true };

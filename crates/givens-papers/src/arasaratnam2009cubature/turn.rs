@@ -20,20 +20,22 @@ const LOST_M: f64 = 500.0;
 const START: [f64; 5] = [1000.0, 300.0, 1000.0, 0.0, -3.0 * core::f64::consts::PI / 180.0];
 const START_VARIANCE: [f64; 5] = [100.0, 10.0, 100.0, 10.0, 1e-4];
 
-/// The two scenarios, by their measurement noise.
+/// The two scenarios, by their measurement noise, and a reading of the first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Scenario {
     /// Gaussian.
     Gaussian,
     /// A mixture of two Gaussians, one as likely as the other.
     Mixture,
+    /// Gaussian, and bearings are numbers: nothing is wrapped where they jump by 2π.
+    Unwrapped,
 }
 
 impl Scenario {
     /// Of its random numbers.
     const fn track(self) -> u32 {
         match self {
-            Scenario::Gaussian => 2_009_801,
+            Scenario::Gaussian | Scenario::Unwrapped => 2_009_801,
             Scenario::Mixture => 2_009_802,
         }
     }
@@ -41,7 +43,7 @@ impl Scenario {
     /// The covariances of its components, m² and rad².
     const fn components(self) -> [[f64; 4]; 2] {
         match self {
-            Scenario::Gaussian => [[100.0, 0.0, 0.0, 1e-5]; 2],
+            Scenario::Gaussian | Scenario::Unwrapped => [[100.0, 0.0, 0.0, 1e-5]; 2],
             Scenario::Mixture => [[100.0, 15e-3, 15e-3, 1e-5], [5.0, 10e-3, 10e-3, 1e-4]],
         }
     }
@@ -49,13 +51,14 @@ impl Scenario {
     /// A radar that believes in a Gaussian of the same covariance.
     fn radar(self) -> Radar {
         let [a, b] = self.components();
-        Radar { cov: core::array::from_fn(|i| 0.5 * (a[i] + b[i])) }
+        Radar { cov: core::array::from_fn(|i| 0.5 * (a[i] + b[i])), wraps: self != Scenario::Unwrapped }
     }
 }
 
 /// Range and bearing from the origin, with correlated noise.
 struct Radar {
     cov: [f64; 4],
+    wraps: bool,
 }
 
 impl Observation for Radar {
@@ -66,7 +69,7 @@ impl Observation for Radar {
         2
     }
     fn angle(&self, i: usize) -> Option<f64> {
-        RangeBearing::published().angle(i)
+        RangeBearing::published().angle(i).filter(|_| self.wraps)
     }
     #[inline(always)]
     fn observe<T: Real>(&self, at: &At<T>, x: &[T], out: &mut [T]) {

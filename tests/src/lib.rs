@@ -1,6 +1,7 @@
 //! What the tests share: golden values, and comparison in units of a standard deviation.
 
 pub mod choices;
+pub mod counted;
 pub mod exact;
 pub mod ill_conditioned;
 pub mod models;

@@ -128,7 +128,7 @@ pub struct FilterArgs {
     /// How to write; from the name of the output, else csv
     #[arg(long, value_enum)]
     pub format: Option<FormatArg>,
-    /// Draw the track, the states and NIS; given again, to another file too
+    /// Draw the track, the states and NIS, through rows and the times of --at; given again, to another file too
     #[arg(long = "plot", value_name = "FILE.svg|png")]
     pub plots: Vec<PathBuf>,
 }

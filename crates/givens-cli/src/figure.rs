@@ -4,6 +4,7 @@ use crate::message::Stop;
 use crate::method::title;
 use crate::plan::Plan;
 use crate::session::Session;
+use givens::Estimates;
 use givens::metrics::chi_squared_band;
 use givens_io::figure::{NisSeries, PlaneTrack, StateSeries, Track, TrackFigure, png, svg};
 use std::collections::HashMap;
@@ -26,7 +27,7 @@ pub fn draw(path: &Path, plan: &Plan, session: &Session) -> Result<Vec<u8>, Stop
     let model = &plan.model;
     let plane = model.plane;
     let name = |i: usize| model.states[i].clone();
-    let smoothed = session.estimates().any(givens::Estimates::is_smoothed);
+    let smoothed = session.estimates().any(Estimates::is_smoothed);
     let what = if smoothed { "smoothed" } else { "filtered" };
     let figure = TrackFigure {
         title: format!("{} — {what} by {}", stem(&model.file), title(&plan.choice)),
@@ -47,41 +48,54 @@ fn stem(file: &str) -> &str {
 }
 
 fn track(plan: &Plan, session: &Session, i: usize) -> Track {
-    let (answer, rows) = (&session.answers[i], &plan.tracks.tracks[i].rows);
-    let est = &answer.estimates;
+    let rows = &plan.tracks.tracks[i].rows;
+    let est = &session.answers[i].estimates;
+    let drawn = in_order(est, session.at.get(i).map(|answer| &answer.estimates));
     let n = est.states();
-    let truth = session.truth_at_rows(plan, i);
-    let series =
-        |state: usize, of: &[f64]| -> Vec<f64> { of.iter().skip(state).step_by(n.max(1)).copied().collect() };
+    let truth = session.truth_at(plan, i, drawn.iter().map(|(est, row)| est.time[*row]));
     let states = (0..n).map(|state| StateSeries {
         name: plan.model.states[state].clone(),
-        time: est.time.clone(),
-        mean: series(state, &est.mean),
-        std: (0..est.len()).map(|row| est.std(row, state)).collect(),
-        filtered: est.is_smoothed().then(|| series(state, &est.filtered_mean)),
+        time: drawn.iter().map(|(est, row)| est.time[*row]).collect(),
+        mean: drawn.iter().map(|(est, row)| est.mean(*row)[state]).collect(),
+        std: drawn.iter().map(|(est, row)| est.std(*row, state)).collect(),
+        filtered: est
+            .is_smoothed()
+            .then(|| drawn.iter().map(|(est, row)| est.filtered_mean(*row)[state]).collect()),
         // a state that the truth does not know has no error to draw
         truth: truth
             .as_ref()
-            .map(|truth| series(state, &truth.states))
+            .map(|truth| truth.states.iter().skip(state).step_by(n).copied().collect::<Vec<_>>())
             .filter(|x| x.iter().any(|x| !x.is_nan())),
     });
     let plane = plan.model.plane.map(|[x, y]| {
-        let pairs =
-            |of: &[f64]| -> Vec<[f64; 2]> { of.chunks_exact(n).map(|row| [row[x], row[y]]).collect() };
+        let pair = |of: &[f64]| [of[x], of[y]];
         PlaneTrack {
-            estimate: pairs(&est.mean),
-            covariance: est
-                .cov
-                .chunks_exact(n * n)
+            estimate: drawn.iter().map(|(est, row)| pair(est.mean(*row))).collect(),
+            covariance: drawn
+                .iter()
+                .map(|(est, row)| est.cov(*row))
                 .map(|p| [p[x * n + x], p[x * n + y], p[y * n + y]])
                 .collect(),
-            filtered: est.is_smoothed().then(|| pairs(&est.filtered_mean)),
+            filtered: est
+                .is_smoothed()
+                .then(|| drawn.iter().map(|(est, row)| pair(est.filtered_mean(*row))).collect()),
             measurements: rows.iter().filter_map(|row| plan.model.place(row)).collect(),
             truth: true_way(plan, i, x, y),
         }
     });
     let name = plan.tracks.tracks[i].id.clone().unwrap_or_default();
     Track { name, plane, states: states.collect(), nis: Some(nis(est)) }
+}
+
+/// The rows, and the times of `--at` that are none of theirs, in order of time: estimates and which of them.
+fn in_order<'e>(rows: &'e Estimates, at: Option<&'e Estimates>) -> Vec<(&'e Estimates, usize)> {
+    let mut drawn: Vec<_> = (0..rows.len()).map(|row| (rows, row)).collect();
+    if let Some(at) = at {
+        let own = |t: f64| rows.time.binary_search_by(|row| row.total_cmp(&t)).is_ok();
+        drawn.extend((0..at.len()).filter(|&k| !own(at.time[k])).map(|k| (at, k)));
+    }
+    drawn.sort_by(|(a, i), (b, j)| a.time[*i].total_cmp(&b.time[*j]));
+    drawn
 }
 
 /// The whole true track in the plane, between the rows too.
@@ -91,7 +105,7 @@ fn true_way(plan: &Plan, i: usize, x: usize, y: usize) -> Option<Vec<[f64; 2]>> 
     Some(truth.rows[i].iter().map(|&k| [xs[k], ys[k]]).collect())
 }
 
-fn nis(est: &givens::Estimates) -> NisSeries {
+fn nis(est: &Estimates) -> NisSeries {
     let mut bands: HashMap<usize, (f64, f64)> = HashMap::new();
     let mut band = |dof: usize| *bands.entry(dof).or_insert_with(|| chi_squared_band(dof as f64));
     let (lower, upper) = est.nis_dof.iter().map(|&dof| band(dof)).unzip();

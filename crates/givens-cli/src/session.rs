@@ -88,20 +88,20 @@ impl Session {
     }
 
     /// The truth that the rows of track `i` estimate, NaN where there is none.
-    pub fn truth_at_rows(&self, plan: &Plan, i: usize) -> Option<Truth> {
+    fn truth_at_rows(&self, plan: &Plan, i: usize) -> Option<Truth> {
+        self.truth_at(plan, i, self.answers[i].estimates.time.iter().copied())
+    }
+
+    /// The truth that the estimates of track `i` at these times are of, NaN where there is none.
+    pub fn truth_at(&self, plan: &Plan, i: usize, times: impl Iterator<Item = f64>) -> Option<Truth> {
         let truth = plan.truth.as_ref()?;
-        let est = &self.answers[i].estimates;
-        let n = plan.model.states.len();
-        let mut states = vec![f64::NAN; est.len() * n];
-        for (row, &t) in est.time.iter().enumerate() {
+        let mut states = Vec::new();
+        for t in times {
             // a fixed point is of one time, whatever the row
             let t = if let Goal::Point(t) = self.goals[i] { t } else { t };
-            let Some(k) = truth.row(i, t) else { continue };
-            for (state, column) in truth.states.iter().enumerate() {
-                if let Some(column) = column {
-                    states[row * n + state] = column[k];
-                }
-            }
+            let row = truth.row(i, t);
+            let of = |column: &Vec<f64>| row.map_or(f64::NAN, |k| column[k]);
+            states.extend(truth.states.iter().map(|column| column.as_ref().map_or(f64::NAN, of)));
         }
         Some(Truth { states })
     }

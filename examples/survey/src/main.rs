@@ -1,7 +1,7 @@
 //! Makes the tables of the survey example from a recorded flight, and scores what was smoothed at the fixes held out.
 //!
 //! `cargo run -p survey-example -- [FOLDER]` reads `data/recording.csv` and writes `fixes.csv` and
-//! `between.csv`. `cargo run -p survey-example -- score SMOOTHED.csv` compares estimates with the fixes held out.
+//! `circles.csv`. `cargo run -p survey-example -- score SMOOTHED.csv` compares estimates with the fixes held out.
 
 // the same frame as the other flight's
 #[path = "../../flight/src/geodesy.rs"]
@@ -23,8 +23,8 @@ const ORIGIN: Position = Position { latitude: 43.6294, longitude: 1.3638, height
 /// Every so many-th fix is held out.
 const HELD_OUT: usize = 5;
 
-/// Stretch of the flight that is drawn, s: eight circles, and the ways there and on.
-const DRAWN: (f64, f64) = (3480.0, 4500.0);
+/// Stretch of the flight that is drawn, s: two circles, in each a gap three times as long as the others.
+const DRAWN: (f64, f64) = (3540.0, 3800.0);
 
 fn main() -> Result<(), Box<dyn Error>> {
     let here = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
@@ -55,7 +55,7 @@ fn write(folder: &Path, fixes: &[Fix]) -> Result<(), Box<dyn Error>> {
     let drawn: Vec<Fix> =
         fixes.iter().filter(|fix| DRAWN.0 <= fix.time && fix.time <= DRAWN.1).copied().collect();
     for (name, table) in
-        [("fixes.csv", tables::fixes(fixes, HELD_OUT)), ("between.csv", tables::between(&drawn))]
+        [("fixes.csv", tables::fixes(fixes, Some(HELD_OUT))), ("circles.csv", tables::fixes(&drawn, None))]
     {
         let path = folder.join(name);
         std::fs::write(&path, table).map_err(|error| format!("{}: {error}", path.display()))?;

@@ -11,27 +11,12 @@ pub fn is_held_out(k: usize, every: usize) -> bool {
     k % every == every - 1
 }
 
-/// All fixes in s, m and m/s, those held out as rows without measures.
-pub fn fixes(fixes: &[Fix], every: usize) -> String {
+/// All fixes in s, m and m/s; with `every`, those held out are rows without measures.
+pub fn fixes(fixes: &[Fix], every: Option<usize>) -> String {
     let mut table = HEADER.to_owned();
     for (k, fix) in fixes.iter().enumerate() {
-        row(&mut table, fix.time, (!is_held_out(k, every)).then_some(fix.place), fix.velocity);
-    }
-    table
-}
-
-/// All fixes, and between them a row without measures at every second. The controls say how the errors of a fix lie and
-/// mean nothing in a row without one, which repeats the last.
-pub fn between(fixes: &[Fix]) -> String {
-    let mut table = HEADER.to_owned();
-    for (k, fix) in fixes.iter().enumerate() {
-        row(&mut table, fix.time, Some(fix.place), fix.velocity);
-        let end = fixes.get(k + 1).map_or(fix.time, |next| next.time);
-        let mut time = fix.time + 1.0;
-        while time < end {
-            row(&mut table, time, None, fix.velocity);
-            time += 1.0;
-        }
+        let there = every.is_none_or(|every| !is_held_out(k, every));
+        row(&mut table, fix.time, there.then_some(fix.place), fix.velocity);
     }
     table
 }
@@ -45,7 +30,7 @@ fn row(table: &mut String, time: f64, place: Option<[f64; 3]>, [v_east, v_north]
 
 #[cfg(test)]
 mod tests {
-    use super::{Fix, between, fixes};
+    use super::{Fix, fixes};
 
     const FLIGHT: [Fix; 3] = [
         Fix { time: 20.0, place: [1.0, 2.0, 3.0], velocity: [4.0, 5.0] },
@@ -55,16 +40,8 @@ mod tests {
 
     #[test]
     fn a_fix_held_out_is_a_row_without_measures() {
-        let table = fixes(&FLIGHT, 2);
+        let table = fixes(&FLIGHT, Some(2));
         let rows: Vec<&str> = table.lines().skip(1).collect();
         assert_eq!(rows, ["20,1.0,2.0,3.0,4.0,5.0", "22,,,,9.0,10.0", "23,0.0,0.0,0.0,0.0,0.0"]);
-    }
-
-    #[test]
-    fn every_second_between_two_fixes_has_a_row() {
-        let table = between(&FLIGHT);
-        let rows: Vec<&str> = table.lines().skip(1).collect();
-        assert_eq!(rows[1], "21,,,,4.0,5.0");
-        assert_eq!(rows.len(), 4);
     }
 }

@@ -2,8 +2,8 @@
 
 use givens::filter::predict::{ItoTaylor, LevelSet, MomentOde};
 use givens::filter::{
-    CdCkf, CdCkf1, CdCkf2, CdEkf, CdGhkf1, CdGhkf2, CdUkf, CdUkf1, Filter, Form, Lskf, Method, Over, Prior,
-    SrCdCkf, SrCdCkf1, SrCdCkf2, SrCdEkf, SrCdGhkf1, SrCdGhkf2, SrCdUkf, SrCdUkf1,
+    AcdEkf, CdCkf, CdCkf1, CdCkf2, CdEkf, CdGhkf1, CdGhkf2, CdUkf, CdUkf1, Filter, Form, Lskf, Method, Over,
+    Prior, SrAcdEkf, SrCdCkf, SrCdCkf1, SrCdCkf2, SrCdEkf, SrCdGhkf1, SrCdGhkf2, SrCdUkf, SrCdUkf1,
 };
 use givens::registry::{ENTRIES, FormName, Kind, RuleName, TimeName, resolve};
 use givens::rule::Rule;
@@ -96,9 +96,9 @@ fn every_continuous_type_has_the_parts_of_its_registry_name() {
         };
     }
     types! {
-        "cd-ekf" CdEkf "acd-ekf" CdEkf "cd-ukf" CdUkf "cd-ukf1" CdUkf1 "cd-ckf" CdCkf "cd-ckf1" CdCkf1
+        "cd-ekf" CdEkf "acd-ekf" AcdEkf "cd-ukf" CdUkf "cd-ukf1" CdUkf1 "cd-ckf" CdCkf "cd-ckf1" CdCkf1
         "cd-ckf2" CdCkf2 "cd-ghkf1" CdGhkf1 "cd-ghkf2" CdGhkf2
-        "sr-cd-ekf" SrCdEkf "sr-acd-ekf" SrCdEkf "sr-cd-ukf" SrCdUkf "sr-cd-ukf1" SrCdUkf1 "sr-cd-ckf" SrCdCkf
+        "sr-cd-ekf" SrCdEkf "sr-acd-ekf" SrAcdEkf "sr-cd-ukf" SrCdUkf "sr-cd-ukf1" SrCdUkf1 "sr-cd-ckf" SrCdCkf
         "sr-cd-ckf1" SrCdCkf1 "sr-cd-ckf2" SrCdCkf2 "sr-cd-ghkf1" SrCdGhkf1 "sr-cd-ghkf2" SrCdGhkf2
         "lskf" Lskf
     }

@@ -18,6 +18,7 @@ mod rules;
 mod singular;
 mod smoothers;
 mod stepping;
+mod work;
 
 use givens::registry::Choice;
 use givens::{Estimates, Goal};

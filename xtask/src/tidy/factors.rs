@@ -7,6 +7,7 @@ use crate::tree::Tree;
 const FILES: &[&str] = &[
     "crates/givens-core/src/filter/update/joint.rs",
     "crates/givens-core/src/filter/update/separate.rs",
+    "crates/givens-core/src/filter/update/square_root.rs",
     "crates/givens-core/src/filter/predict/gain.rs",
 ];
 

@@ -130,15 +130,42 @@ fn parts_and_options_that_exclude_each_other() {
                 "filter osc.toml osc.csv -o out.csv --method cd-ckf2 --set rtol=0",
                 &["--set rtol=0: must be above 0, or atol must be"],
             ),
+        ],
+    );
+}
+
+#[test]
+fn diffusions_that_a_method_cannot_serve() {
+    check(
+        "diffusions",
+        &[
             (
                 "by_state",
                 BY_STATE,
                 "filter osc.toml osc.csv -o out.csv",
                 &[
                     "osc.toml: sr-cd-ckf: the diffusion depends on the state",
-                    "moment-ode",
+                    "moment-ode, euler-maruyama",
                     "--method sr-cd-ckf2",
                 ],
+            ),
+            (
+                "by_state_full_step",
+                BY_STATE,
+                "filter osc.toml osc.csv -o out.csv --method cd-ukf1",
+                &["osc.toml: cd-ukf1: the diffusion depends on the state", "moment-ode, euler-maruyama"],
+            ),
+            (
+                "by_state_level_set",
+                BY_STATE,
+                "smooth osc.toml osc.csv -o out.csv --method lskf",
+                &["osc.toml: lskf: the diffusion depends on the state", "moment-ode, euler-maruyama"],
+            ),
+            (
+                "shape_of_the_diffusion",
+                ("osc.toml", "{ v = \"0.2\" }", "[[0.1], [0.2], [0.3]]"),
+                "filter osc.toml osc.csv -o out.csv",
+                &["osc.toml:12:13: `diffusion` has 3 rows, but there are 2 states", "a row for each state"],
             ),
         ],
     );

@@ -150,6 +150,24 @@ fn wrong_parameters_and_lists() {
                 &["--set kappa=two: must be a number"],
             ),
             (
+                "paper",
+                NONE,
+                "reproduce arasaratnam2011smoother -o pages",
+                &["there is no paper `arasaratnam2011smoother`", "did you mean `arasaratnam2011smoothers`?"],
+            ),
+            (
+                "experiment",
+                NONE,
+                "reproduce arasaratnam2011smoothers --only table-5 -o pages",
+                &["--only table-5: there is no such experiment", "did you mean `table-4`?"],
+            ),
+            (
+                "no_runs",
+                NONE,
+                "reproduce arasaratnam2011smoothers --runs 0 -o pages",
+                &["'0' for '--runs <RUNS>': must be a whole number above zero"],
+            ),
+            (
                 "several",
                 NONE,
                 "filter model.toml data.csv -o out.csv --set kappa=2,update=joint",
@@ -211,7 +229,6 @@ fn wrong_parameters_and_lists() {
                 "filter model.toml data.csv -o out.csv --format parquet",
                 &["invalid value 'parquet'", "csv, jsonl"],
             ),
-            ("reproduce", NONE, "reproduce all", &["unrecognized subcommand 'reproduce'"]),
         ],
     );
 }

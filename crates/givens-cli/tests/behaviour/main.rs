@@ -8,6 +8,7 @@ mod continuous;
 mod failures;
 mod large;
 mod output;
+mod reproduce;
 mod rows;
 mod simulate;
 mod simulated_tables;

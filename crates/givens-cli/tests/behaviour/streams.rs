@@ -136,3 +136,19 @@ fn figures_of_odd_runs_are_drawn_too() {
         roxmltree::Document::parse(&folder.read("a.svg")).unwrap();
     }
 }
+
+/// A row without measures asks for the same as `--at` does, and a linear model gives the same in one step or two.
+#[test]
+fn a_figure_goes_through_the_times_asked_for_as_through_rows() {
+    let folder = folder("figure_at");
+    folder.write("few.csv", "time,z\n1,2\n2,1\n4,3\n").write("more.csv", "time,z\n1,2\n2,1\n3,\n4,3\n");
+    let drawn = |command: &str| {
+        folder.run(&format!("{command} --plot a.svg")).good();
+        folder.read("a.svg")
+    };
+    for command in ["filter", "smooth"] {
+        let at = drawn(&format!("{command} walk.toml few.csv --at 2,3 -o out.csv"));
+        assert_eq!(at, drawn(&format!("{command} walk.toml more.csv")), "{command}");
+        assert_ne!(at, drawn(&format!("{command} walk.toml few.csv")), "{command}");
+    }
+}

@@ -5,7 +5,8 @@ use super::common::models::OSCILLATOR;
 use super::{WALK, folder};
 use givens::registry::{ENTRIES, OPTIONS};
 
-const COMMANDS: [&str; 7] = ["filter", "smooth", "simulate", "compare", "methods", "check", "completions"];
+const COMMANDS: [&str; 8] =
+    ["filter", "smooth", "simulate", "compare", "reproduce", "methods", "check", "completions"];
 
 #[test]
 fn methods_lists_every_row_of_the_registry() {

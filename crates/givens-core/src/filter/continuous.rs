@@ -1,13 +1,13 @@
 //! The methods for continuous models by name: a type for each, its registry name in camel case, its options as fields.
 
+use super::constants::continuous_constants;
 use super::form::{Covariance, SquareRoot};
 use super::methods::Method;
 use super::predict::{Gauge, ItoTaylor, LevelSet, MomentOde, Root, Variant, Velocity};
+use super::start::Sizes;
 use super::update::Block;
 use crate::ode::{Integrator, Solver, Steps, Tolerance};
 use crate::rule::{Cubature3, GaussHermite, Taylor, Unscented};
-
-const SUBSTEPS: usize = 16;
 
 /// How a gap is divided: `max_step` if it is given, or else `substeps`.
 const fn steps(substeps: usize, max_step: Option<f64>) -> Steps {
@@ -19,7 +19,7 @@ const fn steps(substeps: usize, max_step: Option<f64>) -> Steps {
 
 macro_rules! method {
     ($(#[$doc:meta])* $name:ident: $form:ident, $rule:ident { $($field:ident: $type:ty = $default:expr, $about:literal);* },
-     $time:ident { $($option:ident: $option_type:ty = $option_default:expr, $option_about:literal);* } by $make:expr $(, $update:ident)?) => {
+     $time:ident { $($option:ident: $option_type:ty = $option_default:expr, $option_about:literal);* } by |$m:ident| $make:expr $(, $update:ident)?) => {
         $(#[$doc])*
         #[derive(Clone, Copy, Debug, PartialEq)]
         pub struct $name {
@@ -33,28 +33,19 @@ macro_rules! method {
             pub $update: Block,)?
         }
 
-        impl Default for $name {
-            fn default() -> Self {
-                Self {
-                    $($field: $default,)*
-                    $($option: $option_default,)*
-                    substeps: SUBSTEPS,
-                    max_step: None,
-                    $($update: Block::Joint,)?
-                }
-            }
-        }
+        continuous_constants!($name: $rule { $($field = $default),* }, $time {
+            $($option = $option_default,)* substeps = 16, max_step = None $(, $update = Block::Joint)?
+        } by |$m| $make);
 
         impl Method for $name {
             type Rule = $rule;
             type Form = $form;
             type Time = $time;
             fn rule(&self) -> $rule {
-                $rule { $($field: self.$field,)* }
+                self.parts()
             }
             fn time_update(&self) -> $time {
-                let make: fn(&Self) -> $time = $make;
-                make(self)
+                self.time()
             }
             $(fn block(&self) -> Block {
                 self.$update
@@ -87,16 +78,27 @@ macro_rules! moment_ode {
             rtol: f64 = 1e-6, "What an adaptive solver keeps the error of a step below, in standard deviations.";
             atol: f64 = 0.0, "The same in the states' own units; the sum of both counts."
         } by |m| MomentOde { integrator: integrator(m.solver, m.substeps, m.max_step, m.rtol, m.atol) } $(, $update)?);
+
+        impl $name {
+            /// [`sizes_for`](Self::sizes_for) a model whose diffusion depends on the state: the columns of its noise are then
+            /// spread by the rule, and there are more of them.
+            #[must_use]
+            pub const fn sizes_with_state(&self, sizes: Sizes) -> Sizes {
+                self.time().sizes_with_state(sizes, self.parts().shape_for(sizes.states))
+            }
+        }
     };
 }
 
-fn integrator(solver: Solver, substeps: usize, max_step: Option<f64>, rtol: f64, atol: f64) -> Integrator {
-    Integrator {
-        solver,
-        steps: steps(substeps, max_step),
-        tolerance: Tolerance { rtol, atol },
-        ..Integrator::default()
-    }
+pub(super) const fn integrator(
+    solver: Solver,
+    substeps: usize,
+    max_step: Option<f64>,
+    rtol: f64,
+    atol: f64,
+) -> Integrator {
+    let (steps, tolerance) = (steps(substeps, max_step), Tolerance { rtol, atol });
+    Integrator { solver, steps, tolerance, ..Integrator::DEFAULT }
 }
 
 ito_taylor! {

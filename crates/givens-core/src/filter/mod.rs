@@ -1,5 +1,7 @@
 //! Filters: a rule, a time update and a measurement update, stepped through time.
 
+mod acd_ekf;
+mod constants;
 mod continuous;
 mod distinct;
 mod error;
@@ -14,6 +16,7 @@ mod stepper;
 mod steps;
 pub mod update;
 
+pub use acd_ekf::{AcdEkf, SrAcdEkf};
 pub use continuous::{
     CdCkf, CdCkf1, CdCkf2, CdEkf, CdGhkf1, CdGhkf2, CdUkf, CdUkf1, Lskf, SrCdCkf, SrCdCkf1, SrCdCkf2,
     SrCdEkf, SrCdGhkf1, SrCdGhkf2, SrCdUkf, SrCdUkf1,

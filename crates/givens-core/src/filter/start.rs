@@ -11,7 +11,7 @@ use crate::rule::Shape;
 pub struct Sizes {
     /// Length n of the state.
     pub states: usize,
-    /// Columns of the root of Q.
+    /// Columns of the root of Q; of G for continuous models, as the rule spreads them if G depends on the state.
     pub process_noise: usize,
     /// Length d of the longest measurement.
     pub measures: usize,
@@ -26,7 +26,8 @@ pub struct Sizes {
 }
 
 impl Sizes {
-    /// The sizes of a model whose noises have as many columns as rows and which overrides no provided method.
+    /// The sizes of a model whose noises have as many columns as rows and which overrides no provided method. A method for
+    /// continuous models makes of these its own, by `sizes_for` of its type.
     #[must_use]
     pub const fn new(states: usize, measures: usize) -> Self {
         let longer = larger(states, measures);
@@ -40,6 +41,18 @@ impl Sizes {
             parameters: 0,
             model: larger(one, linear),
         }
+    }
+
+    /// Controls and parameters together.
+    pub(super) const fn beside(&self) -> usize {
+        self.controls.saturating_add(self.parameters)
+    }
+
+    /// Room for so much scratch of a continuous model, and for a sensor that overrides no provided method.
+    pub(super) const fn with_model_scratch(self, model: usize) -> Self {
+        let (n, d) = (self.states, self.measures);
+        let sensor = larger(points_scratch(n, d), linear_scratch(n, d, self.beside()));
+        Self { model: larger(self.model, larger(model, sensor)), ..self }
     }
 
     /// The sizes of a discrete model alone, for a rule of that shape.
@@ -85,6 +98,14 @@ pub(super) const fn countable(sizes: Sizes, shape: Shape) -> bool {
     // every array of a filter is a fraction of this
     rows.saturating_mul(rows.saturating_add(noises).saturating_add(images)).saturating_add(alone)
         < usize::MAX / 128
+}
+
+/// A length that no memory has, and that may still be added to.
+pub(super) const ENDLESS: usize = usize::MAX / 4;
+
+/// Whether arrays of so many scalars, and a few times that, are a number that a `usize` holds.
+pub(super) const fn fits(rows: usize, columns: usize, layers: usize) -> bool {
+    rows.saturating_mul(columns).saturating_mul(layers) < usize::MAX / 128
 }
 
 /// Where the arrays of a filter stand in its memory.

@@ -15,15 +15,20 @@ pub struct Expanded<'a, M> {
     pub noise: bool,
 }
 
-impl<M: Sde> Expanded<'_, M> {
-    const fn points_scratch(n: usize, q: usize, points: usize, expansion: usize) -> usize {
-        (2 * n + n * q) * points + expansion
-    }
-
-    fn scratch_for(&self, points: usize) -> usize {
-        let (n, q) = (self.model.states(), self.model.noises());
-        Self::points_scratch(n, q, points, self.model.expansion_scratch(points))
-    }
+/// Scalars of scratch of the map: n states, q noises, `beside` controls and parameters, Lf below or not; `expansion` is the
+/// model's own for all points, and for one.
+pub(crate) const fn expanded_scratch(
+    [n, q, beside]: [usize; 3],
+    noise: bool,
+    points: usize,
+    expansion: [usize; 2],
+) -> usize {
+    let arrays = n.saturating_mul(q).saturating_add(n).saturating_add(n);
+    let outputs = if noise { n.saturating_mul(q).saturating_add(n) } else { n };
+    let all = arrays.saturating_mul(points).saturating_add(expansion[0]);
+    let one = arrays.saturating_add(expansion[1]);
+    let duals = one.saturating_add(n).saturating_add(outputs).saturating_add(beside).saturating_mul(3);
+    if all > duals { all } else { duals }
 }
 
 impl<M: Sde> Map for Expanded<'_, M> {
@@ -33,10 +38,9 @@ impl<M: Sde> Map for Expanded<'_, M> {
     }
 
     fn scratch(&self, points: usize) -> usize {
-        let n = self.model.states();
         let beside = self.model.controls() + self.model.parameters().len();
-        let duals = n + self.outputs() + beside + self.scratch_for(1);
-        self.scratch_for(points).max(3 * duals)
+        let expansion = [points, 1].map(|points| self.model.expansion_scratch(points));
+        expanded_scratch([self.model.states(), self.model.noises(), beside], self.noise, points, expansion)
     }
 
     #[inline(always)]

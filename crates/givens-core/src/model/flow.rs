@@ -14,6 +14,19 @@ pub struct Flow<'a, M> {
     pub diffusion: bool,
 }
 
+/// Scalars of scratch of the map: n states, `below` them so many entries of a diffusion, `beside` controls and parameters;
+/// `drift` is the model's own.
+pub(crate) const fn flow_scratch(n: usize, below: Option<usize>, beside: usize, drift: usize) -> usize {
+    let own = match below {
+        None => 0,
+        Some(entries) => {
+            let (points, linear) = (n.saturating_add(entries), linear_scratch(n, entries, beside));
+            if points > linear { points } else { linear }
+        }
+    };
+    if own > drift { own } else { drift }
+}
+
 impl<M: Sde> Flow<'_, M> {
     fn entries(&self) -> usize {
         if self.diffusion { self.model.states() * self.model.noises() } else { 0 }
@@ -26,10 +39,9 @@ impl<M: Sde> Map for Flow<'_, M> {
     }
 
     fn scratch(&self, points: usize) -> usize {
-        let (n, entries) = (self.model.states(), self.entries());
         let beside = self.model.controls() + self.model.parameters().len();
-        let own = if self.diffusion { (n + entries).max(linear_scratch(n, entries, beside)) } else { 0 };
-        own.max(self.model.drift_scratch(points))
+        let below = self.diffusion.then(|| self.entries());
+        flow_scratch(self.model.states(), below, beside, self.model.drift_scratch(points))
     }
 
     #[inline(always)]

@@ -10,11 +10,14 @@ mod transition;
 pub mod zoo;
 
 pub use expanded::Expanded;
+pub(crate) use expanded::expanded_scratch;
 pub use flow::Flow;
+pub(crate) use flow::flow_scratch;
 pub use map::{
     Linear, Map, Moving, Sensed, linear_by_duals, linear_scratch, points_one_by_one, points_scratch,
 };
 pub use observation::Observation;
+pub(crate) use sde::drift_scratch;
 pub use sde::{Sde, Varies, expansion_by_duals, expansion_scratch};
 pub use transition::Transition;
 

@@ -69,9 +69,8 @@ pub trait Sde {
 
     /// Scalars of scratch that the methods below need for `points` points.
     fn drift_scratch(&self, points: usize) -> usize {
-        let (n, beside) = (self.states(), self.controls() + self.parameters().len());
         let _ = points;
-        points_scratch(n, n).max(linear_scratch(n, n, beside))
+        drift_scratch(self.states(), self.controls() + self.parameters().len())
     }
 
     /// The drift at all points at once: `x` and `out` are n × `points`, component by component.
@@ -107,6 +106,12 @@ pub trait Sde {
     ) {
         expansion_by_duals(self, at, points, x, f, l0, lf, scratch);
     }
+}
+
+/// What [`Sde::drift_scratch`] provides, as a constant; `beside` is the number of controls and parameters together.
+pub(crate) const fn drift_scratch(n: usize, beside: usize) -> usize {
+    let (points, linear) = (points_scratch(n, n), linear_scratch(n, n, beside));
+    if points > linear { points } else { linear }
 }
 
 /// Scalars of scratch of [`expansion_by_duals`]; `beside` is the number of controls and parameters together.

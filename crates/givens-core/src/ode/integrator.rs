@@ -86,8 +86,7 @@ pub struct Integrator {
 
 impl Default for Integrator {
     fn default() -> Self {
-        let (steps, tolerance) = (Steps::Count(16), Tolerance::default());
-        Self { solver: Solver::Dp5, steps, tolerance, limit: 100_000 }
+        Self::DEFAULT
     }
 }
 
@@ -105,6 +104,10 @@ pub struct Work {
 }
 
 impl Integrator {
+    /// The options that a user meets, as a constant.
+    pub const DEFAULT: Self =
+        Self { solver: Solver::Dp5, steps: Steps::Count(16), tolerance: Tolerance::DEFAULT, limit: 100_000 };
+
     /// Whether the options are in range.
     ///
     /// # Errors

@@ -6,6 +6,7 @@
 //! same gap gives the same bits.
 
 mod adaptive;
+mod adaptive_solver;
 mod control;
 mod explicit;
 mod field;
@@ -17,6 +18,7 @@ mod segment;
 mod stop;
 mod tableau;
 
+pub use adaptive_solver::AdaptiveSolver;
 pub use integrator::{Integrator, Solver, Steps, Work};
 pub use segment::Segment;
 pub use stop::{Stop, Why};
@@ -98,6 +100,9 @@ pub struct Tolerance {
 }
 
 impl Tolerance {
+    /// A millionth of the size, as a constant.
+    pub const DEFAULT: Self = Self { rtol: 1e-6, atol: 0.0 };
+
     /// The error allowed in a quantity of this size.
     #[must_use]
     pub const fn of(self, size: f64) -> f64 {
@@ -107,6 +112,6 @@ impl Tolerance {
 
 impl Default for Tolerance {
     fn default() -> Self {
-        Self { rtol: 1e-6, atol: 0.0 }
+        Self::DEFAULT
     }
 }

@@ -6,8 +6,7 @@ use crate::filter::predict::Variant;
 /// A named method: a preset of parts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Entry {
-    /// Its name in the command, the model file and Python; the Rust type is the same in camel case (of `acd-ekf`:
-    /// `CdEkf`, whose solver adapts its steps unless it is told otherwise).
+    /// Its name in the command, the model file and Python; the Rust type is the same in camel case.
     pub name: &'static str,
     /// Other names for the same.
     pub aliases: &'static [&'static str],

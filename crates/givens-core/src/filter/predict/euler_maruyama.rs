@@ -7,7 +7,7 @@ use super::{Given, Plan, Stopped, TimeUpdate};
 use crate::filter::error::Fault;
 use crate::filter::form::{Belief, Form};
 use crate::filter::memory::{larger, take};
-use crate::filter::start::Sizes;
+use crate::filter::start::{ENDLESS, Sizes, fits};
 use crate::model::{At, Flow, Map, Sde, Varies};
 use crate::ode::{Steps, Work};
 use crate::rule::{Rule, Shape, Spread};
@@ -24,6 +24,9 @@ pub struct EulerMaruyama {
 impl EulerMaruyama {
     const fn scratch(sizes: Sizes, shape: Shape, smoothing: bool) -> usize {
         let Sizes { states: n, process_noise: q, controls, parameters, .. } = sizes;
+        if !fits(n, 1 + q, n + q + shape.plus + shape.minus + shape.points) {
+            return ENDLESS;
+        }
         let step = stacked_scratch(n, q, q, n * (1 + q), shape, sizes.model, smoothing);
         larger(step, rate_scratch(n, q, controls + parameters))
     }

@@ -4,8 +4,9 @@
 use super::noise::{check_spread, diffusion};
 use crate::filter::error::Fault;
 use crate::filter::memory::take;
-use crate::model::{At, Flow, Map, Sde, Varies};
-use crate::rule::{Rule, Shape, Spread, spread_scratch};
+use crate::filter::start::Sizes;
+use crate::model::{At, Flow, Map, Sde, Varies, drift_scratch, flow_scratch};
+use crate::rule::{Rule, Shape, Spread};
 use crate::scalar::Real;
 
 /// E\[f\], D and N with Cov\[f, x\] = D Sᵀ and E\[G Gᵀ\] = N J Nᵀ.
@@ -72,12 +73,30 @@ pub(super) fn by_rule_noises<M: Sde>(model: &M, shape: Shape) -> (usize, usize) 
 
 /// Scalars of scratch of the image by a rule of this shape.
 pub(super) fn by_rule_scratch<M: Sde>(model: &M, shape: Shape) -> usize {
-    let (n, map) = (model.states(), flow(model));
-    let outputs = map.outputs();
+    let map = flow(model);
+    image_scratch(model.states(), map.outputs(), shape, map.scratch(shape.points))
+}
+
+const fn image_scratch(n: usize, outputs: usize, shape: Shape, map: usize) -> usize {
+    let columns = n.saturating_add(shape.plus).saturating_add(shape.minus).saturating_add(1);
+    let spread = n.saturating_add(outputs).saturating_mul(shape.points).saturating_add(map);
     // the first two are for the noise alone, which is asked for with its own mean and D
-    n * (1 + n)
-        + outputs * (1 + n + shape.plus + shape.minus)
-        + spread_scratch(shape, n, outputs, map.scratch(shape.points))
+    let alone = n.saturating_add(1).saturating_mul(n);
+    outputs.saturating_mul(columns).saturating_add(spread).saturating_add(alone)
+}
+
+/// The sizes with scratch for a model that overrides no provided method, whose diffusion reads the state or not.
+pub(super) const fn by_rule_sizes(sizes: Sizes, shape: Shape, with_state: bool) -> Sizes {
+    let (n, q, beside) = (sizes.states, sizes.process_noise, sizes.beside());
+    let drift = drift_scratch(n, beside);
+    if !with_state {
+        return sizes.with_model_scratch(image_scratch(n, n, shape, flow_scratch(n, None, beside, drift)));
+    }
+    let entries = n.saturating_mul(q);
+    let map = flow_scratch(n, Some(entries), beside, drift);
+    let columns = n.saturating_add(shape.plus).saturating_add(shape.minus).saturating_add(1);
+    let sizes = sizes.with_model_scratch(image_scratch(n, n.saturating_add(entries), shape, map));
+    Sizes { process_noise: q.saturating_mul(columns), ..sizes }
 }
 
 /// The drift, and the diffusion below it if the state moves it.

@@ -7,10 +7,10 @@ use super::{Given, Stopped};
 use crate::filter::error::{Fault, Halt, Matrix, Quantity};
 use crate::filter::form::{Belief, Form};
 use crate::filter::memory::{put_columns, take};
-use crate::filter::start::Sizes;
+use crate::filter::start::{ENDLESS, Sizes, fits};
 use crate::kernels::{Health, copy_lower, downdate, solve_lower, tria};
 use crate::model::At;
-use crate::ode::{Integrator, Segment, Stop, System, Why, Work};
+use crate::ode::{Integrator, Segment, Solver, Stop, System, Why, Work};
 use crate::rule::RuleError;
 use crate::scalar::{Mask, Real};
 
@@ -39,13 +39,18 @@ const NODES: [(f64, f64); 3] =
     [(0.112_701_665_379_258_31, 5.0 / 18.0), (0.5, 8.0 / 18.0), (0.887_298_334_620_741_7, 5.0 / 18.0)];
 
 /// Scalars of scratch of [`integrate`], for a table of length `table`.
-pub(super) fn integrate_scratch(
+pub(super) const fn integrate_scratch(
     integrator: &Integrator,
     lengths: Lengths,
     sizes: Sizes,
     table: usize,
 ) -> usize {
     let Sizes { states: n, process_noise: columns, controls, parameters, .. } = sizes;
+    // a Rosenbrock method has a matrix over the whole state
+    let width = if matches!(integrator.solver, Solver::Rodas4) { lengths.state } else { 1 };
+    if !fits(lengths.state, width, 8) {
+        return ENDLESS;
+    }
     let solver = integrator.scratch(lengths.state, lengths.system, controls + parameters, table);
     lengths.state + n * n + solver + conditional_scratch(n, columns, lengths)
 }

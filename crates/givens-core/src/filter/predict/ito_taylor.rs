@@ -7,8 +7,8 @@ use super::{Given, Plan, Stopped, TimeUpdate};
 use crate::filter::error::Fault;
 use crate::filter::form::{Belief, Form};
 use crate::filter::memory::{larger, take};
-use crate::filter::start::Sizes;
-use crate::model::{At, Expanded, Map, Sde};
+use crate::filter::start::{ENDLESS, Layout, Sizes, countable, fits};
+use crate::model::{At, Expanded, Map, Sde, expanded_scratch, expansion_scratch};
 use crate::ode::{Steps, Work};
 use crate::rule::{Rule, Shape, Spread};
 use crate::scalar::Real;
@@ -39,6 +39,32 @@ impl ItoTaylor {
     fn map<'m, M>(&self, model: &'m M, times: usize) -> Expanded<'m, M> {
         Expanded { model, times, noise: self.variant == Variant::Full }
     }
+
+    /// The sizes with scratch for a model that overrides no provided method.
+    pub(crate) const fn sizes_for(&self, sizes: Sizes, shape: Shape) -> Sizes {
+        let (n, q, beside) = (sizes.states, sizes.process_noise, sizes.beside());
+        let expansion = [expansion_scratch(n, q, beside); 2];
+        let full = matches!(self.variant, Variant::Full);
+        let points = expanded_scratch([n, q, beside], full, shape.points, expansion);
+        let at_the_mean = expanded_scratch([n, q, beside], true, 1, expansion);
+        sizes.with_model_scratch(larger(points, at_the_mean))
+    }
+
+    /// The memory of a filter.
+    pub(crate) const fn layout(&self, sizes: Sizes, shape: Shape, smoothing: bool) -> Layout {
+        let predict = if countable(sizes, shape) { self.scratch_for(sizes, shape, smoothing) } else { 0 };
+        Layout::new(sizes, shape, smoothing, predict)
+    }
+
+    const fn scratch_for(&self, sizes: Sizes, shape: Shape, smoothing: bool) -> usize {
+        let Sizes { states: n, process_noise: q, controls, parameters, .. } = sizes;
+        if !fits(n, 1 + q, n + q + shape.plus + shape.minus + shape.points) {
+            return ENDLESS;
+        }
+        let outputs = if matches!(self.variant, Variant::Full) { n * (1 + q) } else { n };
+        let beside = larger(rate_scratch(n, q, controls + parameters), n + sizes.model);
+        3 * n * q + larger(stacked_scratch(n, q, 2 * q, outputs, shape, sizes.model, smoothing), beside)
+    }
 }
 
 impl<M: Sde> TimeUpdate<M> for ItoTaylor {
@@ -65,10 +91,7 @@ impl<M: Sde> TimeUpdate<M> for ItoTaylor {
     }
 
     fn scratch(&self, sizes: Sizes, shape: Shape, smoothing: bool) -> usize {
-        let Sizes { states: n, process_noise: q, controls, parameters, .. } = sizes;
-        let outputs = if self.variant == Variant::Full { n * (1 + q) } else { n };
-        let beside = larger(rate_scratch(n, q, controls + parameters), n + sizes.model);
-        3 * n * q + larger(stacked_scratch(n, q, 2 * q, outputs, shape, sizes.model, smoothing), beside)
+        self.scratch_for(sizes, shape, smoothing)
     }
 
     fn plan(&self, _: &M, from: f64, to: f64) -> Result<Plan, Fault> {

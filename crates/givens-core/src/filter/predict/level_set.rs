@@ -6,12 +6,12 @@ use super::gain::Backward;
 use super::integrate::{Lengths, integrate, integrate_scratch};
 use super::moments::{Moments, moments_len, moments_scratch};
 use super::noise::rate_scratch;
-use super::velocity::{ByVelocity, Velocity, by_velocity_scratch};
+use super::velocity::{ByVelocity, Velocity, by_velocity_scratch, by_velocity_sizes};
 use super::{Given, Plan, Stopped, TimeUpdate};
 use crate::filter::error::Fault;
 use crate::filter::form::{Belief, Form};
 use crate::filter::memory::larger;
-use crate::filter::start::Sizes;
+use crate::filter::start::{Layout, Sizes, countable};
 use crate::model::{At, Sde};
 use crate::ode::{Integrator, Work};
 use crate::rule::{Rule, Shape};
@@ -52,6 +52,30 @@ pub struct LevelSet {
     pub integrator: Integrator,
 }
 
+impl LevelSet {
+    /// The sizes with scratch for a model that overrides no provided method.
+    pub(crate) const fn sizes_for(&self, sizes: Sizes, _: Shape) -> Sizes {
+        by_velocity_sizes(sizes, self.velocity)
+    }
+
+    /// The memory of a filter.
+    pub(crate) const fn layout(&self, sizes: Sizes, shape: Shape, smoothing: bool) -> Layout {
+        let predict = if countable(sizes, shape) { self.scratch_for(sizes, shape, smoothing) } else { 0 };
+        let layout = Layout::new(sizes, shape, smoothing, predict);
+        if matches!(self.root, Root::Moved) { layout.with_moved_root() } else { layout }
+    }
+
+    const fn scratch_for(&self, sizes: Sizes, shape: Shape, smoothing: bool) -> usize {
+        let Sizes { states: n, process_noise: q, model: image, .. } = sizes;
+        let (state, system) = match self.gauge {
+            Gauge::Free => (front_len(n, smoothing), front_scratch(n, q, image)),
+            Gauge::Triangular => (moments_len(n, smoothing), moments_scratch(n, q, image)),
+        };
+        let step = integrate_scratch(&self.integrator, Lengths { state, system, image }, sizes, shape.table);
+        larger(step, rate_scratch(n, q, sizes.controls + sizes.parameters))
+    }
+}
+
 impl<M: Sde> TimeUpdate<M> for LevelSet {
     fn check(&self, model: &M) -> Result<(), Fault> {
         check_integrator(&self.integrator)?;
@@ -79,16 +103,7 @@ impl<M: Sde> TimeUpdate<M> for LevelSet {
     }
 
     fn scratch(&self, sizes: Sizes, shape: Shape, smoothing: bool) -> usize {
-        let Sizes { states: n, process_noise: q, model: image, .. } = sizes;
-        let probe = rate_scratch(n, q, sizes.controls + sizes.parameters);
-        let of = |state, system| {
-            let lengths = Lengths { state, system, image };
-            larger(integrate_scratch(&self.integrator, lengths, sizes, shape.table), probe)
-        };
-        match self.gauge {
-            Gauge::Free => of(front_len(n, smoothing), front_scratch(n, q, image)),
-            Gauge::Triangular => of(moments_len(n, smoothing), moments_scratch(n, q, image)),
-        }
+        self.scratch_for(sizes, shape, smoothing)
     }
 
     fn moves_root(&self) -> bool {

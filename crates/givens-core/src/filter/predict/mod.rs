@@ -2,6 +2,8 @@
 
 mod columns;
 mod continuous;
+#[cfg(test)]
+mod derivatives;
 mod euler_maruyama;
 mod front;
 mod gain;

@@ -2,7 +2,7 @@
 
 use super::continuous::{Continuous, check_integrator};
 use super::gain::Backward;
-use super::image::{ByRule, by_rule_noises, by_rule_scratch};
+use super::image::{ByRule, by_rule_noises, by_rule_scratch, by_rule_sizes};
 use super::integrate::{Lengths, integrate, integrate_scratch};
 use super::moments::{Moments, moments_len, moments_scratch};
 use super::noise::rate_scratch;
@@ -10,7 +10,7 @@ use super::{Given, Plan, Stopped, TimeUpdate};
 use crate::filter::error::Fault;
 use crate::filter::form::{Belief, Form};
 use crate::filter::memory::larger;
-use crate::filter::start::Sizes;
+use crate::filter::start::{Layout, Sizes, countable};
 use crate::model::{At, Sde};
 use crate::ode::{Integrator, Work};
 use crate::rule::{Rule, Shape};
@@ -22,6 +22,37 @@ use crate::scalar::Real;
 pub struct MomentOde {
     /// The solver.
     pub integrator: Integrator,
+}
+
+impl MomentOde {
+    /// The sizes with scratch for a model that overrides no provided method, with a diffusion that does not depend on the state.
+    #[allow(clippy::unused_self, reason = "as of the other time updates")]
+    pub(crate) const fn sizes_for(&self, sizes: Sizes, shape: Shape) -> Sizes {
+        by_rule_sizes(sizes, shape, false)
+    }
+
+    /// The same where the diffusion depends on the state.
+    #[allow(clippy::unused_self, reason = "as above")]
+    pub(crate) const fn sizes_with_state(&self, sizes: Sizes, shape: Shape) -> Sizes {
+        by_rule_sizes(sizes, shape, true)
+    }
+
+    /// The memory of a filter.
+    pub(crate) const fn layout(&self, sizes: Sizes, shape: Shape, smoothing: bool) -> Layout {
+        let predict = if countable(sizes, shape) { self.scratch_for(sizes, shape, smoothing) } else { 0 };
+        Layout::new(sizes, shape, smoothing, predict)
+    }
+
+    const fn scratch_for(&self, sizes: Sizes, shape: Shape, smoothing: bool) -> usize {
+        let n = sizes.states;
+        let lengths = Lengths {
+            state: moments_len(n, smoothing),
+            system: moments_scratch(n, sizes.process_noise, sizes.model),
+            image: sizes.model,
+        };
+        let step = integrate_scratch(&self.integrator, lengths, sizes, shape.table);
+        larger(step, rate_scratch(n, sizes.process_noise, sizes.controls + sizes.parameters))
+    }
 }
 
 impl<M: Sde> TimeUpdate<M> for MomentOde {
@@ -48,14 +79,7 @@ impl<M: Sde> TimeUpdate<M> for MomentOde {
     }
 
     fn scratch(&self, sizes: Sizes, shape: Shape, smoothing: bool) -> usize {
-        let n = sizes.states;
-        let lengths = Lengths {
-            state: moments_len(n, smoothing),
-            system: moments_scratch(n, sizes.process_noise, sizes.model),
-            image: sizes.model,
-        };
-        let step = integrate_scratch(&self.integrator, lengths, sizes, shape.table);
-        larger(step, rate_scratch(n, sizes.process_noise, sizes.controls + sizes.parameters))
+        self.scratch_for(sizes, shape, smoothing)
     }
 
     fn plan(&self, _: &M, from: f64, to: f64) -> Result<Plan, Fault> {

@@ -4,7 +4,8 @@ use super::image::{Image, Imaged};
 use super::noise::diffusion;
 use crate::filter::error::{Fault, Quantity};
 use crate::filter::memory::take;
-use crate::model::{At, Sde};
+use crate::filter::start::Sizes;
+use crate::model::{At, Sde, drift_scratch};
 use crate::scalar::{Mask, Real};
 
 /// Which points of the drift are taken, and what is made of them (docs/algorithms.md C11).
@@ -33,7 +34,7 @@ impl Velocity {
 
     /// Evaluations of the drift for n states.
     const fn points(self, n: usize) -> usize {
-        if self.both() { 2 * n } else { n + 1 }
+        if self.both() { n.saturating_mul(2) } else { n.saturating_add(1) }
     }
 }
 
@@ -53,8 +54,18 @@ impl<M> Copy for ByVelocity<'_, M> {}
 
 /// Scalars of scratch of the image.
 pub(super) fn by_velocity_scratch<M: Sde>(model: &M, velocity: Velocity) -> usize {
-    let points = velocity.points(model.states());
-    2 * model.states() * points + model.drift_scratch(points)
+    let (n, points) = (model.states(), velocity.points(model.states()));
+    image_scratch(n, points, model.drift_scratch(points))
+}
+
+const fn image_scratch(n: usize, points: usize, drift: usize) -> usize {
+    n.saturating_mul(points).saturating_mul(2).saturating_add(drift)
+}
+
+/// The sizes with scratch for a model that overrides no provided method.
+pub(super) const fn by_velocity_sizes(sizes: Sizes, velocity: Velocity) -> Sizes {
+    let n = sizes.states;
+    sizes.with_model_scratch(image_scratch(n, velocity.points(n), drift_scratch(n, sizes.beside())))
 }
 
 impl<M: Sde> Image for ByVelocity<'_, M> {

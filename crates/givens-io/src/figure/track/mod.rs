@@ -113,7 +113,8 @@ pub struct StateSeries {
     pub std: Vec<f64>,
     /// The filter's own estimate, drawn thin beside a smoothed one.
     pub filtered: Option<Vec<f64>>,
-    /// The truth at these times, NaN where it is not known; with it, the error is drawn.
+    /// The truth at these times, NaN where it is not known; with it, the error is drawn. Both are lines through what is
+    /// known.
     pub truth: Option<Vec<f64>>,
 }
 

@@ -29,7 +29,7 @@ pub(super) fn estimate(state: &StateSeries, x: Axis, look: &Look) -> Panel {
     let shape = Shape::Line { points: rows(&|i| state.mean[i]), width: 1.5, dashed: false };
     marks.push(Mark::new(&look.name, look.colour, shape));
     if let Some(truth) = &state.truth {
-        let shape = Shape::Line { points: of(truth), width: 1.1, dashed: true };
+        let shape = Shape::Line { points: known(of(truth)), width: 1.1, dashed: true };
         marks.push(Mark::new("truth", Colour::INK, shape));
     }
     let y = Axis { range, ..Axis::default() };
@@ -42,23 +42,29 @@ pub(super) fn error(state: &StateSeries, truth: &[f64], x: Axis, look: &Look) ->
     let band: Vec<[f64; 3]> =
         (0..rows).map(|i| [state.time[i], -2.0 * state.std[i], 2.0 * state.std[i]]).collect();
     let points: Vec<[f64; 2]> = (0..rows).map(|i| [state.time[i], state.mean[i] - truth[i]]).collect();
-    let known: Vec<usize> =
+    let judged: Vec<usize> =
         (0..rows).filter(|&i| points[i][1].is_finite() && state.std[i].is_finite()).collect();
-    let inside = known.iter().filter(|&&i| points[i][1].abs() <= 2.0 * state.std[i]).count();
+    let inside = judged.iter().filter(|&&i| points[i][1].abs() <= 2.0 * state.std[i]).count();
     let (range, cut) = held(&band, points.iter().map(|p| p[1]));
     let mut remark = cut;
-    if !known.is_empty() {
-        let share = 100.0 * inside as f64 / known.len() as f64;
+    if !judged.is_empty() {
+        let share = 100.0 * inside as f64 / judged.len() as f64;
         let within = format!("{}\u{2009}% within ±2σ", number::short(share.round()));
         remark = if remark.is_empty() { within } else { format!("{within} · {remark}") };
     }
     let marks = vec![
         Mark::new("±2σ", look.colour.faded(BAND), Shape::Band { rows: band }),
         Mark::new("", Colour::AXIS, Shape::Level { y: 0.0, dashed: false }),
-        Mark::new("", Colour::VERMILION, Shape::Line { points, width: 1.2, dashed: false }),
+        Mark::new("", Colour::VERMILION, Shape::Line { points: known(points), width: 1.2, dashed: false }),
     ];
     let y = Axis { range, ..Axis::default() };
     Panel { heading: format!("error of {}", state.name), remark, x, y, marks, ..Panel::default() }
+}
+
+/// What is known: a truth has fewer times than an estimate, and its line goes from each to the next.
+fn known(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
+    points.retain(|point| !point[1].is_nan());
+    points
 }
 
 /// Rows that have a time, a mean and a standard deviation.
@@ -131,5 +137,20 @@ mod tests {
             .map(|(i, m)| if i < 100 { f64::NAN } else { m + if i < 125 { 3.0 } else { 1.0 } })
             .collect();
         assert!(error(&state, &truth, Axis::default(), &look()).remark.starts_with("75\u{2009}% within"));
+    }
+
+    #[test]
+    fn a_truth_at_every_other_time_is_a_line_through_these() {
+        let mut state = series(|_| 1.0);
+        let truth: Vec<f64> = (0..200).map(|i| if i % 2 == 0 { 0.5 } else { f64::NAN }).collect();
+        state.truth = Some(truth.clone());
+        let lines = [
+            estimate(&state, Axis::default(), &look()).marks.pop(),
+            error(&state, &truth, Axis::default(), &look()).marks.pop(),
+        ];
+        for line in lines {
+            let Some(Mark { shape: Shape::Line { points, .. }, .. }) = line else { panic!("{line:?}") };
+            assert!(points.len() == 100 && points.iter().all(|p| p[1].is_finite()));
+        }
     }
 }

@@ -1,0 +1,7 @@
+//! What the time updates of continuous models have in common, and where they differ as theory says.
+
+mod drift;
+mod level_set;
+mod memory;
+mod rules;
+mod steps;

@@ -13,7 +13,7 @@ const STEP: usize = 5;
 
 pub(super) fn run(plan: &Plan) -> Result<Page, Trouble> {
     let setting = |i: usize| Setting { track: 2_009_500 + i as u32, states: STEP * i, variance: 1.0 };
-    let all = scores(plan, &(1..=LAST / STEP).map(setting).collect::<Vec<_>>());
+    let all = scores(plan, &(1..=LAST / STEP).map(setting).collect::<Vec<_>>())?;
     let expected = Expected::read(EXPECTED)?;
     let mut claims = Vec::new();
     for (rule, key) in [(CDKF, "cdkf"), (CKF, "ckf")] {

@@ -16,7 +16,7 @@ pub(super) fn run(plan: &Plan) -> Result<Page, Trouble> {
         let power = f64::from(i) / f64::from(A_DECADE) - 2.0;
         Setting { track: 2_009_600 + i as u32, states: STATES, variance: 10f64.powf(power) }
     };
-    let all = scores(plan, &(0..=A_DECADE * DECADES).map(setting).collect::<Vec<_>>());
+    let all = scores(plan, &(0..=A_DECADE * DECADES).map(setting).collect::<Vec<_>>())?;
     let panel = |rule: usize, heading: &str| {
         let x = Axis { range: Some([1e-2, 1e2]), ..axis("prior variance", Scale::Log) };
         let y = axis("KL divergence", Scale::Log);

@@ -4,7 +4,7 @@ use super::multiquadric::{Moments, POWERS, by_rule, random_root, sampled};
 use crate::drawing::{COLOURS, line};
 use crate::page::Table;
 use crate::statistics::spread;
-use crate::{Failures, Plan};
+use crate::{Failures, Plan, Trouble};
 use givens::rule::{CentralDifference, Cubature3, Taylor, Unscented};
 use givens::simulate::Stream;
 use givens_io::figure::{Axis, Mark, Panel, Shape};
@@ -61,7 +61,7 @@ fn mean(sample: &mut dyn Iterator<Item = f64>) -> f64 {
 }
 
 /// All settings, `plan.runs` covariances each.
-pub(super) fn scores(plan: &Plan, settings: &[Setting]) -> Vec<Scores> {
+pub(super) fn scores(plan: &Plan, settings: &[Setting]) -> Result<Vec<Scores>, Trouble> {
     let runs = plan.runs(OWN);
     let answers = plan.each(settings.len() * runs, |unit| {
         let unit = unit as usize;
@@ -76,7 +76,8 @@ pub(super) fn scores(plan: &Plan, settings: &[Setting]) -> Vec<Scores> {
             failures: Default::default(),
         })
         .collect();
-    for (unit, [truth, estimates @ ..]) in answers.into_iter().enumerate() {
+    for (unit, answer) in answers.into_iter().enumerate() {
+        let [truth, estimates @ ..] = answer?;
         let scores = &mut all[unit / runs];
         for (rule, estimates) in estimates.iter().enumerate() {
             for power in 0..POWERS.len() {
@@ -91,20 +92,20 @@ pub(super) fn scores(plan: &Plan, settings: &[Setting]) -> Vec<Scores> {
             }
         }
     }
-    all
+    Ok(all)
 }
 
 /// The moments of one covariance: true, and by each rule.
-fn one(setting: Setting, seed: u64, run: u32) -> [[Moments; 4]; 5] {
+fn one(setting: Setting, seed: u64, run: u32) -> Result<[[Moments; 4]; 5], Trouble> {
     let (n, mut stream) = (setting.states, Stream::new(seed, setting.track, run));
-    let root = random_root(n, setting.variance, &mut stream);
-    [
+    let root = random_root(n, setting.variance, &mut stream)?;
+    Ok([
         sampled(&root, n, &mut stream),
         by_rule(Taylor, &root, n),
         by_rule(Unscented::default(), &root, n),
         by_rule(CentralDifference::default(), &root, n),
         by_rule(Cubature3, &root, n),
-    ]
+    ])
 }
 
 /// Every mean divergence.

@@ -1,5 +1,6 @@
 //! The multi-quadric (1 + xᵀx)^(p/2) of a Gaussian x with mean zero: its moments by sampling and by a rule.
 
+use crate::Trouble;
 use givens::kernels::cholesky;
 use givens::model::{At, Map, Noise, Observation, Sensed};
 use givens::rule::{Rule, Spread, spread_scratch};
@@ -56,7 +57,7 @@ impl Moments {
 
 /// The lower Cholesky factor of a random covariance, n × n: the correlation matrix of A Aᵀ, A of standard normal numbers,
 /// times `variance`.
-pub(super) fn random_root(n: usize, variance: f64, stream: &mut Stream) -> Vec<f64> {
+pub(super) fn random_root(n: usize, variance: f64, stream: &mut Stream) -> Result<Vec<f64>, Trouble> {
     let a: Vec<f64> = (0..n * n).map(|_| stream.normal()).collect();
     let rows: Vec<&[f64]> = a.chunks_exact(n).collect();
     let dot = |i: usize, j: usize| rows[i].iter().zip(rows[j]).map(|(x, y)| x * y).sum::<f64>();
@@ -68,9 +69,12 @@ pub(super) fn random_root(n: usize, variance: f64, stream: &mut Stream) -> Vec<f
             root[i * n + j] = variance * correlation;
         }
     }
-    // A Aᵀ is positive definite with probability one; a pivot lost to rounding would show as no number
-    let _ = cholesky(&mut root, n);
-    root
+    match cholesky(&mut root, n).failed() {
+        None => Ok(root),
+        Some(pivot) => {
+            Err(format!("a random covariance of {n} dimensions has no root (pivot {})", pivot + 1).into())
+        }
+    }
 }
 
 /// The moments of each power from samples of x = S u.
@@ -123,12 +127,12 @@ mod tests {
     use givens::rule::{CentralDifference, Cubature3, Taylor, Unscented};
 
     fn root(n: usize) -> Vec<f64> {
-        random_root(n, 1.0, &mut Stream::new(1, 0, 0))
+        random_root(n, 1.0, &mut Stream::new(1, 0, 0)).unwrap()
     }
 
     #[test]
     fn every_diagonal_entry_of_the_covariance_is_the_variance() {
-        let (n, root) = (7, random_root(7, 0.3, &mut Stream::new(1, 0, 0)));
+        let (n, root) = (7, random_root(7, 0.3, &mut Stream::new(1, 0, 0)).unwrap());
         for row in root.chunks_exact(n) {
             assert!((row.iter().map(|x| x * x).sum::<f64>() - 0.3).abs() < 1e-14);
         }
@@ -136,7 +140,7 @@ mod tests {
 
     #[test]
     fn in_one_dimension_the_samples_have_the_moments_of_the_chi_distribution() {
-        // E √(1 + u²), u standard normal, and its variance 2 − E²: U(½, 2, ½)/√2 of Tricomi's function is 1.354 52…
+        // E √(1 + u²), u standard normal; its square has the mean 2
         let found = sampled(&[1.0], 1, &mut Stream::new(1, 0, 0))[0];
         let exact = quadrature(|u: f64| (1.0 + u * u).sqrt());
         let deviation = (2.0 - exact * exact).sqrt() / 100.0;

@@ -145,11 +145,9 @@ fn drawn(scenario: Scenario, seed: u64, run: u32) -> Result<(Vec<[f64; 5]>, Data
     let at = At { t: 0.0, dt: 1.0, u: &[], p: &[] };
     let mut q = [0.0; 25];
     aircraft.process_noise(&at, &mut q);
-    let _ = cholesky(&mut q, 5);
-    let noise = scenario.components().map(|mut cov| {
-        let _ = cholesky(&mut cov, 2);
-        cov
-    });
+    root(&mut q, 5)?;
+    let mut noise = scenario.components();
+    noise.iter_mut().try_for_each(|cov| root(cov, 2))?;
     let (mut truth, mut data, mut x) = (Vec::with_capacity(SCANS), Data::new(2).starting_at(0.0), START);
     for k in 1..=SCANS {
         let mut next = [0.0; 5];
@@ -164,6 +162,14 @@ fn drawn(scenario: Scenario, seed: u64, run: u32) -> Result<(Vec<[f64; 5]>, Data
         data.push(k as f64, &z)?;
     }
     Ok((truth, data, Gaussian::from_std(&mean, &std)?))
+}
+
+/// The lower Cholesky factor of a noise covariance, in its place.
+fn root(cov: &mut [f64], n: usize) -> Result<(), Trouble> {
+    match cholesky(cov, n).failed() {
+        None => Ok(()),
+        Some(pivot) => Err(format!("a noise covariance has no root (pivot {})", pivot + 1).into()),
+    }
 }
 
 /// Adds S w to `x`, w standard normal.

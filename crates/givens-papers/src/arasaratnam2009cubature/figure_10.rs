@@ -48,3 +48,15 @@ pub(super) fn run(plan: &Plan) -> Result<Page, Trouble> {
         failures: levels.failures(),
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_peak_of_the_figure_is_there_with_its_source() {
+        let expected = Expected::read(EXPECTED).unwrap();
+        assert!(expected.source.contains("read by eye"));
+        assert_eq!(expected.number(&["peak", "ckf"]), Some(350.0));
+    }
+}

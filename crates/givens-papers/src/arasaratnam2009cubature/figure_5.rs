@@ -132,3 +132,22 @@ fn listed(worse: &[(Setting, i32)]) -> String {
         worse.iter().map(|(setting, p)| format!("n = {} p = {p}", setting.states)).collect();
     format!("but at {}", words.join(", "))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_value_read_off_the_figure_belongs_to_a_setting() {
+        let expected = Expected::read(EXPECTED).unwrap();
+        assert!(expected.source.contains("read by eye"));
+        let of = |key: &str, p: i32| {
+            let at = |n: usize| expected.number(&[key, &p.to_string(), &n.to_string()]);
+            (1..=LAST / STEP).filter_map(|i| at(STEP * i)).collect::<Vec<_>>()
+        };
+        assert_eq!(
+            (of("cdkf", 1), of("ckf", 1), of("ckf", -5)),
+            (vec![4.0, 10.4], vec![0.6, 0.82], vec![10.3])
+        );
+    }
+}

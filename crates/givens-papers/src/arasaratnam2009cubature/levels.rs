@@ -154,21 +154,3 @@ fn track(outcome: &Outcome, truth: &[[f64; 5]]) -> Track {
         lost: first_lost(est, truth).is_some(),
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::Quiet;
-
-    /// Sixty runs, of which each mean square has the spread that stands beside it: 0.4 m, 0.25 m/s and 0.03 °/s at 250 runs.
-    #[test]
-    fn sixty_runs_of_the_cubature_filter_lie_where_an_independent_programs_do() {
-        let plan = Plan { runs: Some(60), seed: 1, progress: &Quiet };
-        let levels = Levels::new(&plan, Scenario::Gaussian).unwrap();
-        for (i, independent) in [22.7, 11.9, 1.356].into_iter().enumerate() {
-            let ours = levels.level(CKF, TRUE, i);
-            assert!((ours.value - independent).abs() < 4.0 * ours.spread, "{i}: {ours:?} {independent}");
-            assert!(ours.spread < 0.05 * independent, "{i}: {ours:?}");
-        }
-    }
-}

@@ -182,8 +182,9 @@ pub(super) fn panel(
         marks.push(line(&format!("p = {sign}{}", p.abs()), COLOURS[power], points));
     }
     for power in 0..POWERS.len() {
-        let dots = Shape::Dots { points: published(power), radius: 4.5, hollow: true };
-        marks.push(Mark::new("", COLOURS[power], dots));
+        let points = published(power);
+        let name = if power == 0 && !points.is_empty() { "in print, by eye" } else { "" };
+        marks.push(Mark::new(name, COLOURS[power], Shape::Dots { points, radius: 4.5, hollow: true }));
     }
     let [x, y] = axes;
     Panel { heading: heading.to_owned(), x, y, marks, ..Panel::default() }

@@ -30,6 +30,13 @@ impl Failures {
         *self.kinds.entry(kind).or_default() += 1;
     }
 
+    /// Counts the runs of others as well.
+    pub fn add(&mut self, others: &Self) {
+        for (kind, count) in &others.kinds {
+            *self.kinds.entry(kind).or_default() += count;
+        }
+    }
+
     /// All of them.
     pub fn count(&self) -> usize {
         self.kinds.values().sum()

@@ -14,6 +14,7 @@ mod paper;
 mod plan;
 mod statistics;
 
+pub mod arasaratnam2009cubature;
 pub mod arasaratnam2011smoothers;
 
 pub use expected::{Expected, ExpectedError};

@@ -12,6 +12,7 @@ mod judge;
 mod page;
 mod paper;
 mod plan;
+mod radar;
 mod statistics;
 
 pub mod arasaratnam2011smoothers;

@@ -16,6 +16,7 @@ mod radar;
 mod statistics;
 
 pub mod arasaratnam2011smoothers;
+pub mod wang2021levelset;
 
 pub use expected::{Expected, ExpectedError};
 pub use failures::Failures;

@@ -35,7 +35,7 @@ impl core::fmt::Debug for Experiment {
 pub type Trouble = Box<dyn core::error::Error + Send + Sync>;
 
 /// All papers, by year.
-pub const PAPERS: &[Paper] = &[crate::arasaratnam2011smoothers::PAPER];
+pub const PAPERS: &[Paper] = &[crate::arasaratnam2011smoothers::PAPER, crate::wang2021levelset::PAPER];
 
 /// Why there is no such paper or experiment.
 #[derive(Clone, Debug, PartialEq, Eq)]

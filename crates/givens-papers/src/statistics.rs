@@ -35,10 +35,11 @@ pub(crate) fn spread(runs: &[f64], statistic: impl Fn(&mut dyn Iterator<Item = f
 pub(crate) fn fisher(a: [usize; 2], b: [usize; 2]) -> f64 {
     let (hits, of_a, all) = (a[0] + b[0], a[0] + a[1], a[0] + a[1] + b[0] + b[1]);
     let Ok(chances) = Hypergeometric::new(all as u64, hits as u64, of_a as u64) else { return 1.0 };
-    let seen = chances.pmf(a[0] as u64);
+    // by logarithms: the binomial coefficients of some thousand runs overflow
+    let chance = |k: usize| chances.ln_pmf(k as u64).exp();
+    let seen = chance(a[0]);
     let least = (hits + of_a).saturating_sub(all);
-    let unlikely =
-        (least..=hits.min(of_a)).map(|k| chances.pmf(k as u64)).filter(|&p| p <= seen * (1.0 + 1e-9));
+    let unlikely = (least..=hits.min(of_a)).map(|k| chance(k)).filter(|&p| p <= seen * (1.0 + 1e-9));
     unlikely.sum::<f64>().min(1.0)
 }
 
@@ -73,6 +74,7 @@ mod tests {
     fn fishers_test_is_that_of_the_tea() {
         // the lady who tastes tea: 3 and 1 of 4 and 4; scipy.stats.fisher_exact gives 0.4857142857
         assert!((fisher([3, 1], [1, 3]) - 0.485_714_285_7).abs() < 1e-9);
-        assert!((fisher([0, 100], [0, 100]) - 1.0).abs() < 1e-12);
+        assert!((fisher([0, 100], [0, 100]) - 1.0).abs() < 1e-9);
+        assert!((fisher([0, 2100], [0, 420]) - 1.0).abs() < 1e-9);
     }
 }

@@ -39,7 +39,7 @@ pub(crate) fn fisher(a: [usize; 2], b: [usize; 2]) -> f64 {
     let chance = |k: usize| chances.ln_pmf(k as u64).exp();
     let seen = chance(a[0]);
     let least = (hits + of_a).saturating_sub(all);
-    let unlikely = (least..=hits.min(of_a)).map(|k| chance(k)).filter(|&p| p <= seen * (1.0 + 1e-9));
+    let unlikely = (least..=hits.min(of_a)).map(chance).filter(|&p| p <= seen * (1.0 + 1e-9));
     unlikely.sum::<f64>().min(1.0)
 }
 

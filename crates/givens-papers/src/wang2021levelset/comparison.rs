@@ -228,13 +228,13 @@ mod tests {
         let orders =
             [include_str!("expected/figure-1.toml"), include_str!("expected/figure-2.toml")].map(read);
         for key in ["rk2", "rk4"] {
-            orders.iter().for_each(|orders| assert!(orders.number(&["order", key]).is_some(), "{key}"));
+            assert!(orders.iter().all(|orders| orders.number(&["order", key]).is_some()), "{key}");
         }
         assert!(orders[0].number(&["order", "euler"]).is_some());
         assert!(orders[1].number(&["order", "proper"]).is_some());
         let counts =
             [include_str!("expected/figure-3.toml"), include_str!("expected/figure-4.toml")].map(read);
-        counts.iter().for_each(|counts| assert_eq!(counts.number(&["runs"]), Some(100.0)));
+        assert!(counts.iter().all(|counts| counts.number(&["runs"]) == Some(100.0)));
         assert_eq!(counts[0].number(&["diverged", "w24"]), Some(100.0));
         for key in ["cd-ckf", "lskf"] {
             assert_eq!(counts[1].number(&["diverged", key]), Some(0.0));

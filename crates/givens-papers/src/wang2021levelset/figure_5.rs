@@ -12,7 +12,7 @@ use givens_io::figure::{Block, Colour, Figure, Grid, Mark, Panel, Scale, Shape};
 
 /// Random roots of the paper.
 pub(super) const OWN: usize = 1024;
-const TRACK: u32 = 2021_05;
+const TRACK: u32 = 202_105;
 /// Times 0, 0.05, …, 1.
 const TIMES: usize = 21;
 /// Name, colour in the paper (the last two are not in it), velocity.

@@ -29,6 +29,11 @@ impl Failures {
         *self.kinds.entry(kind).or_default() += 1;
     }
 
+    /// Counts all of another's too.
+    pub(crate) fn add(&mut self, other: &Self) {
+        other.kinds.iter().for_each(|(kind, count)| *self.kinds.entry(kind).or_default() += count);
+    }
+
     /// All of them.
     pub fn count(&self) -> usize {
         self.kinds.values().sum()

@@ -38,7 +38,11 @@ impl core::fmt::Debug for Experiment {
 pub type Trouble = Box<dyn core::error::Error + Send + Sync>;
 
 /// All papers, by year.
-pub const PAPERS: &[Paper] = &[crate::arasaratnam2010continuous::PAPER, crate::arasaratnam2011smoothers::PAPER, crate::sarkka2012continuous::PAPER];
+pub const PAPERS: &[Paper] = &[
+    crate::arasaratnam2010continuous::PAPER,
+    crate::arasaratnam2011smoothers::PAPER,
+    crate::sarkka2012continuous::PAPER,
+];
 
 /// Why there is no such paper or experiment.
 #[derive(Clone, Debug, PartialEq, Eq)]

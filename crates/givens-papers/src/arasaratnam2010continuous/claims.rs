@@ -51,8 +51,7 @@ impl Seen<'_> {
                 continue;
             }
             let errors = (from..self.steps().len()).map(|s| self.error(omega, CKF, s));
-            let (low, high) =
-                errors.fold((f64::INFINITY, 0f64), |(low, high), x| (low.min(x), high.max(x)));
+            let (low, high) = errors.fold((f64::INFINITY, 0f64), |(low, high), x| (low.min(x), high.max(x)));
             worst = worst.max(high / low);
         }
         let shown = format!("errors in position a factor of {worst:.2} apart at most");
@@ -66,7 +65,8 @@ impl Seen<'_> {
         let mut shown = Vec::new();
         for (i, omega) in OMEGAS.iter().enumerate() {
             let (one, most) = (self.share(i, EKF, 0), self.share(i, EKF, last));
-            holds &= most < one || (most == one && !(self.error(i, EKF, last) > self.error(i, EKF, 0)));
+            let errors = [self.error(i, EKF, 0), self.error(i, EKF, last)];
+            holds &= most < one || (most == one && (errors[1] <= errors[0] || errors[0].is_nan()));
             shown.push(format!("ω = {omega}: {:.0} → {:.0} %", 100.0 * one, 100.0 * most));
         }
         ("the CD-EKF improves with m", format!("lost, m = 1 → 64: {}", shown.join(", ")), holds)
@@ -84,7 +84,8 @@ impl Seen<'_> {
             lost = lost.max(self.share(omega, method, 0));
             survives = survives.min(self.share(omega, method, last));
         }
-        let shown = format!("lost up to {:.0} % at m = 1, from {:.0} % at m = 64", 100.0 * lost, 100.0 * survives);
+        let shown =
+            format!("lost up to {:.0} % at m = 1, from {:.0} % at m = 64", 100.0 * lost, 100.0 * survives);
         (what, shown, lost > 0.5 && survives < 0.5)
     }
 
@@ -138,9 +139,8 @@ pub(super) fn claims(cells: &Cells, number: usize, interval: f64) -> Vec<Claim> 
             said.push(seen.cubature_breaks_down());
         }
         said.push(seen.order());
-        let claim = |(what, ours, holds): Said| {
-            Claim::statement(format!("{what} — {}", of.name()), ours, holds)
-        };
+        let claim =
+            |(what, ours, holds): Said| Claim::statement(format!("{what} — {}", of.name()), ours, holds);
         claims.extend(said.into_iter().map(claim));
     }
     claims

@@ -63,8 +63,11 @@ impl Reading {
     }
 }
 
-/// The filters: name, registry name and settings. Of the CD-UKF the paper's words allow two.
-pub(super) const METHODS: [(&str, &str, &[(&str, &str)]); 4] = [
+/// A filter: its name in print, its registry name, and settings.
+type Method = (&'static str, &'static str, &'static [(&'static str, &'static str)]);
+
+/// The filters. Of the CD-UKF the paper's words allow two.
+pub(super) const METHODS: [Method; 4] = [
     ("CD-EKF", "cd-ekf", &[("time_update", "euler-maruyama")]),
     ("CD-UKF", "cd-ukf", &[("time_update", "euler-maruyama")]),
     ("CD-UKF (Euler's moments)", "cd-ukf", &[("solver", "euler")]),

@@ -42,7 +42,8 @@ pub(super) fn two_points(
         mean[2 * i] = c1[i];
         mean[2 * i + 1] = (c1[i] - c0[i]) / interval;
         for j in 0..3 {
-            let mut put = |row: usize, column: usize, value: f64| cov[(2 * i + row) * 7 + 2 * j + column] = value;
+            let mut put =
+                |row: usize, column: usize, value: f64| cov[(2 * i + row) * 7 + 2 * j + column] = value;
             put(0, 0, r1[i][j]);
             put(0, 1, r1[i][j] / interval);
             put(1, 0, r1[i][j] / interval);
@@ -71,8 +72,7 @@ mod tests {
             [ground.hypot(x[2]), x[1].atan2(x[0]), x[2].atan2(ground)]
         };
         let (a, b) = (see([1000.0, 2650.0, 200.0]), see([900.0, 2900.0, 220.0]));
-        let belief =
-            two_points(&scene, [&a, &b], Start::Nought, &mut Stream::new(1, 0, 0)).unwrap();
+        let belief = two_points(&scene, [&a, &b], Start::Nought, &mut Stream::new(1, 0, 0)).unwrap();
         let wanted = [900.0, -50.0, 2900.0, 125.0, 220.0, 10.0, 0.0];
         for (x, wanted) in belief.mean().iter().zip(wanted) {
             assert!((x - wanted).abs() < 1e-9, "{:?}", belief.mean());

@@ -51,7 +51,8 @@ fn rows() -> impl Iterator<Item = (usize, usize, usize, usize)> {
 }
 
 fn lost(cells: &Cells) -> Table {
-    let mut table = Table::new("lost", &["reading", "filter", "m", "lost_omega_3", "lost_omega_4.5", "lost_omega_6"]);
+    let mut table =
+        Table::new("lost", &["reading", "filter", "m", "lost_omega_3", "lost_omega_4.5", "lost_omega_6"]);
     for (r, method, s, steps) in rows() {
         let mut row = vec![READINGS[r].name().into(), METHODS[method].0.into(), steps.into()];
         row.extend((0..OMEGAS.len()).map(|omega| cells.get(r, omega, method, s).lost.count().into()));

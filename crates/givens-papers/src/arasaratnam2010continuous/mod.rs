@@ -8,6 +8,8 @@ mod start;
 mod table_5;
 mod tables;
 
+pub use runs::lost;
+
 use crate::{Experiment, Paper};
 
 const fn table(name: &'static str, shows: &'static str, run: crate::paper::Run) -> Experiment {

@@ -3,6 +3,7 @@
 use super::start::two_points;
 use crate::radar::{Diverged, Drawn, Radar, Scene, Track, method, position};
 use crate::{Failures, Plan, Trouble};
+use givens::filter::Gaussian;
 use givens::model::zoo::Turn3d;
 use givens::registry::Choice;
 use givens::simulate::Stream;
@@ -137,37 +138,75 @@ pub(super) fn cells(plan: &Plan, interval: f64) -> Result<Cells, Trouble> {
     Ok(cells)
 }
 
-/// One run of everything: both starts see the same path.
+/// The path of one run, which does not depend on how the filters start.
+struct World {
+    scene: Scene,
+    drawn: Drawn,
+    /// For the start: a stream of its own.
+    own: Stream,
+}
+
+impl World {
+    fn new(seed: u64, run: u32, sigma: f64, omega: f64, interval: f64) -> Result<Self, Trouble> {
+        let scene = scene(sigma, omega, interval);
+        // 2010, then ω and T and σ₂ as one figure each
+        let track =
+            20_100_000 + 1000 * (10.0 * omega) as u32 + 10 * interval as u32 + u32::from(sigma > 1e-3);
+        let drawn = scene.draw(0, &mut Stream::new(seed, track, run))?;
+        Ok(Self { scene, drawn, own: Stream::new(seed, track + 5, run) })
+    }
+
+    fn start(&self, start: Start) -> Result<Gaussian, Trouble> {
+        match self.drawn.z.as_slice() {
+            [first, second, ..] => two_points(&self.scene, [first, second], start, &mut self.own.clone()),
+            _ => Err("a run needs two measurements to start from".into()),
+        }
+    }
+
+    fn track(&self, prior: &Gaussian, method: usize, steps: usize) -> Result<Track, Trouble> {
+        self.scene.track(&choice(method, steps)?, prior, 1, 0, &self.drawn, FAR)
+    }
+}
+
+/// One run of everything.
 fn one(seed: u64, run: u32, interval: f64) -> Result<Vec<(usize, Track)>, Trouble> {
     let mut tracks = Vec::new();
     for (i, omega) in OMEGAS.into_iter().enumerate() {
-        let mut drawn: Option<(f64, Drawn)> = None;
-        for (r, reading) in READINGS.into_iter().enumerate() {
-            let scene = scene(reading.sigma, omega, interval);
-            // 2010, then ω and T and σ₂ as one figure each
-            let track = 20_100_000
-                + 1000 * (10.0 * omega) as u32
-                + 10 * interval as u32
-                + u32::from(reading.sigma > 1e-3);
-            let mut stream = Stream::new(seed, track, run);
-            let drawn = match &mut drawn {
-                Some((sigma, drawn)) if *sigma == reading.sigma => &*drawn,
-                other => &other.insert((reading.sigma, scene.draw(0, &mut stream)?)).1,
-            };
-            // the start has a stream of its own, so that it does not depend on whether the path was drawn anew
-            let mut own = Stream::new(seed, track + 5, run);
-            let [first, second, ..] = drawn.z.as_slice() else { continue };
-            let prior = two_points(&scene, [first, second], reading.start, &mut own)?;
-            for method in 0..METHODS.len() {
-                for (s, &steps) in reading.steps().iter().enumerate() {
-                    let choice = choice(method, steps)?;
-                    let track = scene.track(&choice, &prior, 1, 0, drawn, FAR)?;
-                    tracks.push((Cells::at(r, i, method, s), track));
+        for readings in READINGS.as_chunks::<2>().0 {
+            let world = World::new(seed, run, readings[0].sigma, omega, interval)?;
+            for reading in readings {
+                let r = READINGS.iter().position(|of| of == reading).unwrap_or_default();
+                let prior = world.start(reading.start)?;
+                for method in 0..METHODS.len() {
+                    for (s, &steps) in reading.steps().iter().enumerate() {
+                        tracks.push((Cells::at(r, i, method, s), world.track(&prior, method, steps)?));
+                    }
                 }
             }
         }
     }
     Ok(tracks)
+}
+
+/// How many runs of the CD-CKF are lost: σ₂ in rad/s per √s, ω in °/s, the interval in s, the rate started at nought or drawn
+/// about ω.
+///
+/// # Errors
+/// Steps out of their range.
+pub fn lost(
+    plan: &Plan,
+    sigma: f64,
+    nought: bool,
+    omega: f64,
+    interval: f64,
+    steps: usize,
+) -> Result<usize, Trouble> {
+    let start = if nought { Start::Nought } else { Start::Drawn };
+    let runs = plan.each(plan.runs(OWN), |run| -> Result<bool, Trouble> {
+        let world = World::new(plan.seed, run, sigma, omega, interval)?;
+        Ok(world.track(&world.start(start)?, CKF, steps)?.lost.is_some())
+    });
+    runs.into_iter().try_fold(0, |sum, lost| Ok(sum + usize::from(lost?)))
 }
 
 const FAR: Diverged = |errors| errors.iter().any(|error| position(error) > LOST);

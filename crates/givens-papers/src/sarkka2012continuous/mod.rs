@@ -5,6 +5,8 @@ mod figures;
 mod runs;
 mod table;
 
+pub use runs::lost;
+
 use crate::{Experiment, Paper};
 
 /// The paper.

@@ -73,43 +73,67 @@ pub(super) struct Cell {
 /// By method, then by number of steps.
 pub(super) type Cells = [[Cell; STEPS.len()]; METHODS.len()];
 
-/// All runs at an interval.
-pub(super) fn cells(plan: &Plan, interval: f64) -> Result<Cells, Trouble> {
+/// What became of one run, and the mean square of its error in position, m².
+type Answer = (Option<Lost>, f64);
+
+/// All runs, over one path and from one start each, of the filters wanted: pairs of a position in [`METHODS`] and M.
+fn answers(plan: &Plan, interval: f64, wanted: &[(usize, usize)]) -> Result<Vec<Vec<Answer>>, Trouble> {
     let scene = scene(interval);
     let std = [100.0, 100.0, 100.0, 100.0, 100.0, 100.0, 1f64.to_radians()];
     let far: Diverged = |errors| errors.iter().any(|error| position(error) > LOST);
-    let answers = plan.each(plan.runs(OWN), |run| -> Result<Vec<_>, Trouble> {
+    let runs = plan.each(plan.runs(OWN), |run| -> Result<Vec<Answer>, Trouble> {
         let mut stream = Stream::new(plan.seed, 201_200 + interval as u32, run);
         let prior = about(&scene.begin(), &std, &mut stream)?;
         let drawn = scene.draw(1, &mut stream)?;
-        let mut tracks = Vec::with_capacity(METHODS.len() * STEPS.len());
-        for method in &METHODS {
-            for steps in STEPS {
-                let track = match method.choice(steps)? {
-                    Some(choice) => scene.track(&choice, &prior, 0, 1, &drawn, far)?,
-                    None => ekf::track(&scene, steps, &prior, &drawn, far)?,
-                };
-                let squares = track.errors.iter().map(|error| position(error).powi(2));
-                tracks.push((track.lost, squares.sum::<f64>() / track.errors.len() as f64));
-            }
-        }
-        Ok(tracks)
+        let one = |&(method, steps): &(usize, usize)| {
+            let track = match METHODS[method].choice(steps)? {
+                Some(choice) => scene.track(&choice, &prior, 0, 1, &drawn, far)?,
+                None => ekf::track(&scene, steps, &prior, &drawn, far)?,
+            };
+            let squares = track.errors.iter().map(|error| position(error).powi(2));
+            Ok((track.lost, squares.sum::<f64>() / track.errors.len() as f64))
+        };
+        wanted.iter().map(one).collect()
     });
+    runs.into_iter().collect()
+}
+
+impl Cell {
+    fn note(&mut self, method: usize, (lost, square): Answer) {
+        match lost {
+            Some(Lost::Diverged) if METHODS[method].registry.is_none() => self.strayed += 1,
+            Some(lost) => return self.lost.note_lost(&lost),
+            None => {}
+        }
+        self.squares.push(square);
+    }
+}
+
+/// All runs at an interval.
+pub(super) fn cells(plan: &Plan, interval: f64) -> Result<Cells, Trouble> {
+    let wanted: Vec<_> = (0..METHODS.len()).flat_map(|method| STEPS.map(|steps| (method, steps))).collect();
     let mut cells = Cells::default();
-    for answer in answers {
-        for (at, (lost, square)) in answer?.into_iter().enumerate() {
-            let (method, steps) = (at / STEPS.len(), at % STEPS.len());
-            let cell = &mut cells[method][steps];
-            match lost {
-                Some(Lost::Diverged) if METHODS[method].registry.is_none() => cell.strayed += 1,
-                Some(lost) => {
-                    cell.lost.note_lost(&lost);
-                    continue;
-                }
-                None => {}
-            }
-            cell.squares.push(square);
+    for run in answers(plan, interval, &wanted)? {
+        for (at, answer) in run.into_iter().enumerate() {
+            let method = at / STEPS.len();
+            cells[method][at % STEPS.len()].note(method, answer);
         }
     }
     Ok(cells)
+}
+
+/// How many runs of one filter are lost, as the paper counts them: `key` is that of `expected/`, `interval` in seconds.
+///
+/// # Errors
+/// A key that is none, or steps out of their range.
+pub fn lost(plan: &Plan, key: &str, interval: f64, steps: usize) -> Result<usize, Trouble> {
+    let method = METHODS.iter().position(|method| method.key == key);
+    let method = method.ok_or_else(|| format!("no filter `{key}`"))?;
+    let mut cell = Cell::default();
+    for run in answers(plan, interval, &[(method, steps)])? {
+        for answer in run {
+            cell.note(method, answer);
+        }
+    }
+    Ok(cell.lost.count())
 }

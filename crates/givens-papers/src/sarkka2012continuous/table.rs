@@ -86,3 +86,21 @@ fn remark(method: &Method, interval: f64, steps: usize) -> &'static str {
         _ => "",
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_filter_has_its_seven_published_counts() {
+        for text in [TABLE_1, TABLE_2] {
+            let expected = Expected::read(text).unwrap();
+            assert_eq!(expected.numbers(&["steps"]), STEPS.map(|m| m as f64));
+            for method in &METHODS {
+                let counts = expected.numbers(&["divergences", method.key]);
+                assert_eq!(counts.len(), STEPS.len(), "{}", method.name);
+                assert!(counts.iter().all(|count| (0.0..=100.0).contains(count)));
+            }
+        }
+    }
+}

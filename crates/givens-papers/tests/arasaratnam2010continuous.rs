@@ -1,5 +1,7 @@
 //! Small runs with a fixed seed, in wide bands about the counts of an independent program.
 
+#![allow(clippy::unwrap_used)]
+
 use givens_papers::arasaratnam2010continuous::{PAPER, lost};
 use givens_papers::{Plan, Quiet};
 

@@ -1,5 +1,7 @@
 //! Small runs with a fixed seed, in bands of 3.5 binomial standard deviations about the counts of an independent program.
 
+#![allow(clippy::unwrap_used)]
+
 use givens_papers::sarkka2012continuous::lost;
 use givens_papers::{Plan, Quiet};
 

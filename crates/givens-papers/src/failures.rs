@@ -29,7 +29,7 @@ impl Failures {
         *self.kinds.entry(kind).or_default() += 1;
     }
 
-    /// Counts those of another setting too.
+    /// Counts all of another's too.
     pub(crate) fn add(&mut self, other: &Self) {
         other.kinds.iter().for_each(|(kind, count)| *self.kinds.entry(kind).or_default() += count);
     }

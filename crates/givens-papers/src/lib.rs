@@ -15,7 +15,9 @@ mod plan;
 mod radar;
 mod statistics;
 
+pub mod arasaratnam2010continuous;
 pub mod arasaratnam2011smoothers;
+pub mod sarkka2012continuous;
 pub mod wang2021levelset;
 
 pub use expected::{Expected, ExpectedError};

@@ -1,6 +1,8 @@
 //! The experiments of Wang & Forger 2021 that are quick enough for every day: what must hold, and the numbers of an
 //! independent program. The radar runs have theirs beside the code.
 
+#![allow(clippy::unwrap_used, clippy::panic)]
+
 use givens_papers::{Cell, Page, Plan, Quiet, Verdict, find};
 
 fn page(name: &str, runs: usize) -> Page {

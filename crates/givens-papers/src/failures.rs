@@ -30,11 +30,9 @@ impl Failures {
         *self.kinds.entry(kind).or_default() += 1;
     }
 
-    /// Counts the runs of others as well.
-    pub fn add(&mut self, others: &Self) {
-        for (kind, count) in &others.kinds {
-            *self.kinds.entry(kind).or_default() += count;
-        }
+    /// Counts all of another's too.
+    pub fn add(&mut self, other: &Self) {
+        other.kinds.iter().for_each(|(kind, count)| *self.kinds.entry(kind).or_default() += count);
     }
 
     /// All of them.

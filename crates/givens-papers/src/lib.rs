@@ -12,10 +12,14 @@ mod judge;
 mod page;
 mod paper;
 mod plan;
+mod radar;
 mod statistics;
 
 pub mod arasaratnam2009cubature;
+pub mod arasaratnam2010continuous;
 pub mod arasaratnam2011smoothers;
+pub mod sarkka2012continuous;
+pub mod wang2021levelset;
 
 pub use expected::{Expected, ExpectedError};
 pub use failures::Failures;

@@ -22,8 +22,11 @@ pub struct Experiment {
     /// The paper's own number of runs; zero where nothing is drawn.
     pub runs: usize,
     /// Runs it.
-    pub run: fn(&Plan) -> Result<Page, Trouble>,
+    pub run: Run,
 }
+
+/// What runs an experiment.
+pub(crate) type Run = fn(&Plan) -> Result<Page, Trouble>;
 
 impl core::fmt::Debug for Experiment {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
@@ -35,7 +38,13 @@ impl core::fmt::Debug for Experiment {
 pub type Trouble = Box<dyn core::error::Error + Send + Sync>;
 
 /// All papers, by year.
-pub const PAPERS: &[Paper] = &[crate::arasaratnam2009cubature::PAPER, crate::arasaratnam2011smoothers::PAPER];
+pub const PAPERS: &[Paper] = &[
+    crate::arasaratnam2009cubature::PAPER,
+    crate::arasaratnam2010continuous::PAPER,
+    crate::arasaratnam2011smoothers::PAPER,
+    crate::sarkka2012continuous::PAPER,
+    crate::wang2021levelset::PAPER,
+];
 
 /// Why there is no such paper or experiment.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -2,10 +2,29 @@
 
 use crate::scalar::Real;
 
+/// From this length on sums are taken four at a time.
+const LONG: usize = 64;
+
 /// Σ aᵢ bᵢ over the shorter of both.
 #[inline(always)]
 pub fn dot<T: Real>(a: &[T], b: &[T]) -> T {
     a.iter().zip(b).fold(T::zero(), |sum, (&a, &b)| a.mul_add(b, sum))
+}
+
+/// The same in four sums side by side: the additions of a long one need not wait for each other.
+#[inline(always)]
+pub(super) fn long_dot<T: Real>(a: &[T], b: &[T]) -> T {
+    let mut sums = [T::zero(); 4];
+    let ((a, rest_a), (b, rest_b)) = (a.as_chunks::<4>(), b.as_chunks::<4>());
+    for (x, y) in a.iter().zip(b) {
+        for k in 0..4 {
+            sums[k] = x[k].mul_add(y[k], sums[k]);
+        }
+    }
+    for (k, (&x, &y)) in rest_a.iter().zip(rest_b).enumerate() {
+        sums[k] = x.mul_add(y, sums[k]);
+    }
+    (sums[0] + sums[1]) + (sums[2] + sums[3])
 }
 
 /// C + A Bᵀ (or C − A Bᵀ) for `sign` = ±1: C `rows` × `columns`, A `rows` × k and B `columns` × k in rows of length
@@ -37,7 +56,7 @@ pub fn square<T: Real>(p: &mut [T], n: usize, a: &[T], stride: usize, k: usize) 
     for i in 0..n {
         for j in 0..=i {
             let (x, y) = (&a[i * stride..i * stride + k], &a[j * stride..j * stride + k]);
-            let product = dot(x, y);
+            let product = if k < LONG { dot(x, y) } else { long_dot(x, y) };
             (p[i * n + j], p[j * n + i]) = (product, product);
         }
     }

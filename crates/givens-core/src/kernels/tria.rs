@@ -1,6 +1,7 @@
 //! Triangularisation by Householder reflections of the columns, in echelon form.
 
 use super::Health;
+use super::product::long_dot as dot;
 use crate::scalar::{Mask, Real};
 
 /// Tria(A): the lower-triangular S with S Sᵀ = A Aᵀ and diagonal ≥ 0, in place (docs/algorithms.md §2).
@@ -73,21 +74,4 @@ fn spread_columns<T: Real>(a: &mut [T], rows: usize, stride: usize) {
 #[inline(always)]
 fn sum_of_squares<T: Real>(row: &[T]) -> T {
     dot(row, row)
-}
-
-#[inline(always)]
-fn dot<T: Real>(a: &[T], b: &[T]) -> T {
-    // four sums side by side: the additions need not wait for each other
-    let mut sums = [T::zero(); 4];
-    let (quads_a, quads_b) = (a.chunks_exact(4), b.chunks_exact(4));
-    let (rest_a, rest_b) = (quads_a.remainder(), quads_b.remainder());
-    for (x, y) in quads_a.zip(quads_b) {
-        for k in 0..4 {
-            sums[k] = x[k].mul_add(y[k], sums[k]);
-        }
-    }
-    for (k, (&x, &y)) in rest_a.iter().zip(rest_b).enumerate() {
-        sums[k] = x.mul_add(y, sums[k]);
-    }
-    (sums[0] + sums[1]) + (sums[2] + sums[3])
 }

@@ -60,7 +60,10 @@ impl Rule for CentralDifference {
         let n = mean.len();
         let eta = T::of(self.eta);
         let eta2 = self.eta * self.eta;
-        let images = evaluate(g, at, mean, n, true, |i, l| eta * factor[i * n + l], scratch);
+        let offsets = |i: usize, steps: &mut [T]| {
+            steps.iter_mut().zip(&factor[i * n..]).for_each(|(step, &s)| *step = eta * s);
+        };
+        let images = evaluate(g, at, mean, n, true, offsets, scratch);
         let (odd, half_bend) = (T::of(0.5 / self.eta), T::of(0.5 / eta2));
         let even = T::of(Real::sqrt(eta2 - 1.0) / (2.0 * eta2));
         for i in 0..g.outputs() {
@@ -72,7 +75,9 @@ impl Rule for CentralDifference {
                 let bend = (plus[l] - y0) + (minus[l] - y0);
                 ybar = half_bend.mul_add(bend, ybar);
                 row[l] = odd * (plus[l] - minus[l]);
-                row[n + l] = even * bend;
+                if let Some(second) = row.get_mut(n + l) {
+                    *second = even * bend;
+                }
             }
             out.mean[i] = ybar;
         }

@@ -9,6 +9,7 @@ mod central_difference;
 mod cubature3;
 mod cubature5;
 mod gauss_hermite;
+mod moments;
 mod pairs;
 mod points;
 mod taylor;
@@ -43,7 +44,8 @@ pub struct Shape {
 pub struct Spread<'a, T> {
     /// E\[g\], length d.
     pub mean: &'a mut [T],
-    /// d rows of length `stride`: D in columns 0…n, the positive columns of E behind it; the caller's own beyond.
+    /// d rows of length `stride`: D in columns 0…n, the positive columns of E behind it; the caller's own beyond. With a
+    /// stride of n, D alone: E is then not computed.
     pub dev: &'a mut [T],
     /// Length of a row of `dev`.
     pub stride: usize,
@@ -56,7 +58,12 @@ impl<T: Real> Spread<'_, T> {
     #[inline(always)]
     pub fn not_finite(&self, columns: usize) -> Option<usize> {
         self.mean.iter().zip(self.dev.chunks_exact(self.stride)).position(|(&mean, row)| {
-            let sum = row[..columns].iter().fold(mean.abs(), |sum, &x| sum + x.abs());
+            let (quads, rest) = row[..columns].as_chunks::<4>();
+            let mut sums = [mean.abs(), T::zero(), T::zero(), T::zero()];
+            for quad in quads {
+                (0..4).for_each(|k| sums[k] += quad[k].abs());
+            }
+            let sum = rest.iter().fold((sums[0] + sums[1]) + (sums[2] + sums[3]), |sum, &x| sum + x.abs());
             (!sum.finite()).all()
         })
     }

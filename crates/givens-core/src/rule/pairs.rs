@@ -30,7 +30,7 @@ pub(super) fn evaluate<'a, T: Real, G: Map>(
     mean: &[T],
     pairs: usize,
     centred: bool,
-    offset: impl Fn(usize, usize) -> T,
+    offsets: impl Fn(usize, &mut [T]),
     scratch: &'a mut [T],
 ) -> Images<'a, T> {
     let (n, d) = (mean.len(), g.outputs());
@@ -39,12 +39,14 @@ pub(super) fn evaluate<'a, T: Real, G: Map>(
     let (x, rest) = scratch.split_at_mut(n * points);
     let (y, rest) = rest.split_at_mut(d * points);
     for (i, (row, &m)) in x.chunks_exact_mut(points).zip(mean).enumerate() {
-        for l in 0..pairs {
-            let step = offset(i, l);
-            row[l] = m + step;
-            row[pairs + l] = m - step;
+        let (plus, rest) = row.split_at_mut(pairs);
+        let (minus, centre) = rest.split_at_mut(pairs);
+        offsets(i, plus);
+        for (plus, minus) in plus.iter_mut().zip(minus) {
+            let step = *plus;
+            (*plus, *minus) = (m + step, m - step);
         }
-        row[2 * pairs..].fill(m);
+        centre.fill(m);
     }
     g.points(at, points, x, y, rest);
     for i in 0..d {

@@ -1,9 +1,10 @@
 //! The rules made of weighted points: their unit points are data, and all of them share this spread.
 
+use super::moments::{even_moment, odd_moment};
 use super::pairs::evaluate;
 use super::{Rule, RuleError, Shape, Spread};
 use crate::model::{At, Map};
-use crate::scalar::Real;
+use crate::scalar::{Mask, Real};
 
 /// The pairs ±ξ of a rule.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -156,7 +157,10 @@ fn along_axes<T: Real, G: Map>(
 ) {
     let (n, radius) = (mean.len(), Real::sqrt(radius2));
     let rho = T::of(radius);
-    let images = evaluate(g, at, mean, n, centred, |i, l| rho * factor[i * n + l], scratch);
+    let offsets = |i: usize, steps: &mut [T]| {
+        steps.iter_mut().zip(&factor[i * n..]).for_each(|(step, &s)| *step = rho * s);
+    };
+    let images = evaluate(g, at, mean, n, centred, offsets, scratch);
     // without a centre, n/radius² = 1
     let shift = if centred { n as f64 / radius2 } else { 1.0 };
     let (share, shift) = (T::of(1.0 / n as f64), T::of(shift));
@@ -172,10 +176,15 @@ fn along_axes<T: Real, G: Map>(
         let row = &mut out.dev[i * out.stride..(i + 1) * out.stride];
         for l in 0..n {
             row[l] = odd * (plus[l] - minus[l]);
-            row[n + l] = even * (middle(plus[l], minus[l]) - average);
         }
         let b = shift * average;
         out.mean[i] = near + b;
+        if out.stride == n {
+            continue;
+        }
+        for l in 0..n {
+            row[n + l] = even * (middle(plus[l], minus[l]) - average);
+        }
         if bend > 0.0 {
             row[2 * n] = curvature * b;
         } else if bend < 0.0 {
@@ -201,45 +210,61 @@ fn from_table<T: Real, G: Map>(
     let n = mean.len();
     let (weights, rest) = table.split_at(count);
     let (scales, nodes) = rest.split_at(count);
-    let offset = |i: usize, l: usize| {
-        (0..=i).fold(T::zero(), |sum, j| factor[i * n + j].mul_add(nodes[j * count + l], sum))
+    let offsets = |i: usize, steps: &mut [T]| {
+        steps.fill(T::zero());
+        for (&s, xi) in factor[i * n..=i * n + i].iter().zip(nodes.chunks_exact(count)) {
+            steps.iter_mut().zip(xi).for_each(|(step, &xi)| *step = s.mul_add(xi, *step));
+        }
     };
-    let images = evaluate(g, at, mean, count, centre.is_some(), offset, scratch);
+    let images = evaluate(g, at, mean, count, centre.is_some(), offsets, scratch);
     let half = T::of(0.5);
     let positive = count - negative;
     let minus_columns = 2 * negative + usize::from(centre.is_some_and(|weight| weight < 0.0));
+    let plus_columns = 2 * positive + usize::from(centre.is_some_and(|weight| weight >= 0.0));
     for i in 0..g.outputs() {
         let (plus, minus, at_mean) = images.row(i);
         let reference = if centre.is_some() { at_mean } else { None };
-        // the weights sum to one: averaged about the centre or a first average, the sum over many points stays small, and
-        // a component without spread has no deviation of rounding
-        let about = |near: T| {
-            let pairs = plus.iter().zip(minus).zip(weights);
-            near + pairs.fold(T::zero(), |sum, ((&p, &m), &w)| w.mul_add((p - near) + (m - near), sum))
-        };
-        let ybar = about(reference.unwrap_or_else(|| about(T::zero())));
         let row = &mut out.dev[i * out.stride..(i + 1) * out.stride];
         let lost = &mut out.minus[i * minus_columns..(i + 1) * minus_columns];
-        for j in 0..n {
-            let xi = &nodes[j * count..(j + 1) * count];
-            // Σ over both points of w y ξ: w (y₊ − y₋) ξ
-            row[j] =
-                (0..count).fold(T::zero(), |sum, l| (weights[l] * (plus[l] - minus[l])).mul_add(xi[l], sum));
+        let first = plus[0];
+        if plus.iter().chain(minus).chain(&reference).all(|y| y.same(first).all()) {
+            out.mean[i] = first;
+            let columns = row.len().min(n + plus_columns);
+            row[..columns].fill(T::zero());
+            lost.fill(T::zero());
+            continue;
         }
-        for l in 0..count {
-            let moved = (0..n).fold(T::zero(), |sum, j| row[j].mul_add(nodes[j * count + l], sum));
-            let even = scales[l] * (half * (plus[l] + minus[l]) - ybar);
-            let odd = scales[l] * (half * (plus[l] - minus[l]) - moved);
-            if l < positive {
-                row[n + l] = even;
-                row[n + positive + l] = odd;
-            } else {
-                lost[l - positive] = even;
-                lost[negative + l - positive] = odd;
-            }
-        }
-        put_centre(centre, reference, ybar, &mut row[n + 2 * positive..], lost.last_mut());
+        // the weights sum to one: averaged about the centre or a first average, the sum over many points stays small, and
+        // a component without spread has no deviation of rounding
+        let about = |near: T| near + even_moment(weights, plus, minus, near);
+        let ybar = about(reference.unwrap_or_else(|| about(T::zero())));
         out.mean[i] = ybar;
+        for (d, xi) in row.iter_mut().zip(nodes.chunks_exact(count)) {
+            // Σ over both points of w y ξ
+            *d = odd_moment(weights, plus, minus, xi);
+        }
+        if out.stride == n {
+            continue;
+        }
+        let (moved, rest) = row.split_at_mut(n);
+        let (even, rest) = rest.split_at_mut(positive);
+        let (odd, middle) = rest.split_at_mut(positive);
+        let (even_lost, odd_lost) = lost.split_at_mut(negative);
+        for (l, even) in even.iter_mut().chain(even_lost).enumerate() {
+            *even = scales[l] * (half * (plus[l] + minus[l]) - ybar);
+        }
+        let kinds = [(odd, 0..positive), (&mut odd_lost[..negative], positive..count)];
+        for (odd, range) in kinds {
+            let (plus, minus) = (&plus[range.clone()], &minus[range.clone()]);
+            for ((odd, &p), &m) in odd.iter_mut().zip(plus).zip(minus) {
+                *odd = half * (p - m);
+            }
+            for (&d, xi) in moved.iter().zip(nodes.chunks_exact(count)) {
+                odd.iter_mut().zip(&xi[range.clone()]).for_each(|(odd, &xi)| *odd = (-d).mul_add(xi, *odd));
+            }
+            odd.iter_mut().zip(&scales[range]).for_each(|(odd, &scale)| *odd *= scale);
+        }
+        put_centre(centre, reference, ybar, middle, lost.last_mut());
     }
 }
 

@@ -44,7 +44,16 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
     pub fn new(states: usize, square_root: bool, mut memory: B) -> Self {
         let room = memory.as_mut().len().saturating_sub(Self::memory_len(states, 0));
         let capacity = room / Self::record_len(states).max(1);
-        Self { states, square_root, capacity, oldest: 0, count: 0, seen: 0, memory, scalar: PhantomData }
+        Self {
+            states,
+            square_root,
+            capacity,
+            oldest: 0,
+            count: 0,
+            seen: (0, 0.0),
+            memory,
+            scalar: PhantomData,
+        }
     }
 
     /// Records held.

@@ -142,9 +142,10 @@ fn alike((mean, cov): (&[f64], &[f64]), (other, others): (&[f64], &[f64])) -> bo
     let n = mean.len();
     let deviation = |i: usize| cov[i * n + i].sqrt();
     let near = |i: usize| (mean[i] - other[i]).abs() <= ALIKE * (deviation(i) + mean[i].abs());
-    let apart =
-        |i: usize, j: usize| (cov[i * n + j] - others[i * n + j]).abs() / (deviation(i) * deviation(j));
-    (0..n).all(near) && (0..n * n).all(|k| !(apart(k / n, k % n) > ALIKE))
+    let close = |i: usize, j: usize| {
+        (cov[i * n + j] - others[i * n + j]).abs() <= ALIKE * deviation(i) * deviation(j)
+    };
+    (0..n).all(near) && (0..n * n).all(|k| close(k / n, k % n))
 }
 
 const ALIKE: f64 = 1e-13;

@@ -142,7 +142,9 @@ impl<M: Sde, R: Rule> Image for ByRule<'_, M, R> {
         mut scratch: &mut [T],
     ) -> Result<(), Fault> {
         let (n, q, shape, map) = (mean.len(), self.model.noises(), self.shape(), self.flow());
-        let (outputs, stride, lost) = (map.outputs(), n + shape.plus, shape.minus);
+        // without a diffusion that moves, D is all that is asked for
+        let stride = if map.diffusion { n + shape.plus } else { n };
+        let (outputs, lost) = (map.outputs(), shape.minus);
         let average = take(&mut scratch, outputs);
         let dev = take(&mut scratch, outputs * stride);
         let minus = take(&mut scratch, outputs * lost);

@@ -56,7 +56,16 @@ pub(super) fn finish<T: Real, F: Form>(
     let Stacked { spread, entries, q, noise, known, lost } = stacked;
     let n = belief.mean.len();
     let width = spread.stride;
-    let spreads = if entries.is_some() { q } else { 0 };
+    // a noise whose entries do not move with the state spreads nothing
+    let moves = |j: usize| {
+        let rows = || (0..n).map(|i| n + i * q + j);
+        let still = |of: &[T]| of.iter().all(|x| x.same(T::zero()).all());
+        !rows().all(|row| {
+            still(&spread.dev[row * width..][..width]) && still(&spread.minus[row * lost..][..lost])
+        })
+    };
+    let moving = || (0..if entries.is_some() { q } else { 0 }).filter(|&j| moves(j));
+    let spreads = moving().count();
     let dropped = |j: usize| (0..n).all(|i| noise[i * known + j].same(T::zero()).all());
     let kept = (0..known).filter(|&j| !dropped(j)).count();
     let stride = width * (1 + spreads) + kept;
@@ -71,8 +80,8 @@ pub(super) fn finish<T: Real, F: Form>(
         row[width..].iter_mut().zip(columns).for_each(|(to, j)| *to = noise[i * known + j]);
         let away = &mut minus[i * all_lost..(i + 1) * all_lost];
         away[..lost].copy_from_slice(&spread.minus[i * lost..(i + 1) * lost]);
-        for j in 0..spreads {
-            let from = n + i * q + j;
+        for (j, noise) in moving().enumerate() {
+            let from = n + i * q + noise;
             let to = &mut row[width + kept + j * width..][..width];
             for (to, &x) in to.iter_mut().zip(&spread.dev[from * width..]) {
                 *to = scale * x;

@@ -67,4 +67,84 @@ impl Sde for Turn3d {
     fn diffusion_varies(&self) -> Varies {
         Varies::Never
     }
+
+    #[inline(always)]
+    fn drift_points<T: Real>(&self, _: &At<T>, points: usize, x: &[T], dx: &mut [T], _: &mut [T]) {
+        let row = |i: usize| &x[i * points..(i + 1) * points];
+        let (vx, vy, vz, rate) = (row(1), row(3), row(5), row(6));
+        for (i, dx) in dx.chunks_exact_mut(points.max(1)).enumerate() {
+            match i {
+                0 => dx.copy_from_slice(vx),
+                1 => dx.iter_mut().zip(rate).zip(vy).for_each(|((dx, &w), &v)| *dx = -(w * v)),
+                2 => dx.copy_from_slice(vy),
+                3 => dx.iter_mut().zip(rate).zip(vx).for_each(|((dx, &w), &v)| *dx = w * v),
+                4 => dx.copy_from_slice(vz),
+                _ => dx.fill(T::zero()),
+            }
+        }
+    }
+
+    /// L₀f = J f, as the drift has no curvature along a noise.
+    #[inline(always)]
+    fn expansion_points<T: Real>(
+        &self,
+        at: &At<T>,
+        points: usize,
+        x: &[T],
+        f: &mut [T],
+        l0: &mut [T],
+        lf: &mut [T],
+        scratch: &mut [T],
+    ) {
+        self.drift_points(at, points, x, f, scratch);
+        let (first, second) = (T::of(self.velocity), T::of(self.rate));
+        let row = |i: usize| &x[i * points..(i + 1) * points];
+        let (vx, vy, rate) = (row(1), row(3), row(6));
+        let rows = l0.chunks_exact_mut(points.max(1));
+        for (i, l0) in rows.enumerate() {
+            let turned = l0.iter_mut().zip(rate);
+            match i {
+                0 => turned.zip(vy).for_each(|((to, &w), &v)| *to = -(w * v)),
+                1 => turned.zip(vx).for_each(|((to, &w), &v)| *to = -(w * (w * v))),
+                2 => turned.zip(vx).for_each(|((to, &w), &v)| *to = w * v),
+                3 => turned.zip(vy).for_each(|((to, &w), &v)| *to = -(w * (w * v))),
+                _ => l0.fill(T::zero()),
+            }
+        }
+        for (at, lf) in lf.chunks_exact_mut(points.max(1)).enumerate() {
+            let scaled = |lf: &mut [T], by: T, of: &[T]| {
+                lf.iter_mut().zip(of).for_each(|(lf, &x)| *lf = by * x);
+            };
+            match (at / 4, at % 4) {
+                (0, 0) | (2, 1) | (4, 2) => lf.fill(first),
+                (1, 1) => scaled(lf, -first, rate),
+                (1, 3) => scaled(lf, -second, vy),
+                (3, 0) => scaled(lf, first, rate),
+                (3, 3) => scaled(lf, second, vx),
+                _ => lf.fill(T::zero()),
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::expansion_by_duals;
+
+    #[test]
+    fn the_expansion_in_closed_form_is_that_of_the_derivatives() {
+        const POINTS: usize = 3;
+        let turn = Turn3d { velocity: 0.4, rate: 0.03 };
+        let at = At { t: 0.0, dt: 0.5, u: &[], p: &[] };
+        let x: [f64; 7 * POINTS] = core::array::from_fn(|k| (k as f64 * 1.7).sin() + 0.2);
+        let (mut f, mut l0, mut lf) = ([1.0; 21], [1.0; 21], [1.0; 84]);
+        let (mut g, mut m0, mut mf) = ([2.0; 21], [2.0; 21], [2.0; 84]);
+        let mut scratch = [0.0; 200];
+        turn.expansion_points(&at, POINTS, &x, &mut f, &mut l0, &mut lf, &mut scratch);
+        expansion_by_duals(&turn, &at, POINTS, &x, &mut g, &mut m0, &mut mf, &mut scratch);
+        for (a, b) in f.iter().chain(&l0).chain(&lf).zip(g.iter().chain(&m0).chain(&mf)) {
+            assert!((a - b).abs() < 1e-15, "{a} {b}");
+        }
+    }
 }

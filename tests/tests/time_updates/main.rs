@@ -5,3 +5,4 @@ mod level_set;
 mod memory;
 mod rules;
 mod steps;
+mod way_back;

@@ -110,10 +110,11 @@ impl<'t> Between<'t> {
                     side.history.smooth_on(time, smoothed, put)?;
                     continue;
                 }
-                let (mut mean, mut factor) = (smoothed.belief.mean.to_vec(), smoothed.belief.factor.to_vec());
+                let Belief { mean, factor, cov, .. } = &smoothed.belief;
+                let (mut mean, mut factor, mut cov) = (mean.to_vec(), factor.to_vec(), cov.to_vec());
                 let (mut shift, mut root) = (side.mean.clone(), side.factor.clone());
                 smoothed.seen_from(&side.mean, &side.factor, &mut shift, &mut root);
-                let belief = Belief { mean: &mut mean, factor: &mut factor, cov: &mut [], moved: &mut [] };
+                let belief = Belief { mean: &mut mean, factor: &mut factor, cov: &mut cov, moved: &mut [] };
                 let seen = Smoothed { belief, shift: &mut shift, root: &mut root };
                 side.history.smooth_on(time, &seen, put)?;
             }

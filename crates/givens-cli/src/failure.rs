@@ -75,8 +75,9 @@ fn fault(model: &Model, choice: Option<&Choice>, fault: &Fault) -> String {
             ),
             Quantity::Drift if choice.is_some_and(|choice| choice.time_update == TimeName::ItoTaylor) => {
                 format!(
-                    "the drift of {}, or a derivative of it in the expansion, is not a finite number; {DOMAIN}",
-                    state(component)
+                    "the drift of {}, or a derivative of it in the expansion, is not a finite number; {DOMAIN}{}",
+                    state(component),
+                    too_long(choice)
                 )
             }
             Quantity::Transition
@@ -84,7 +85,12 @@ fn fault(model: &Model, choice: Option<&Choice>, fault: &Fault) -> String {
             | Quantity::Diffusion
             | Quantity::Estimate
             | Quantity::ProcessNoise => {
-                format!("the {} of {} is not a finite number; {DOMAIN}", quantity.name(), state(component))
+                format!(
+                    "the {} of {} is not a finite number; {DOMAIN}{}",
+                    quantity.name(),
+                    state(component),
+                    too_long(choice)
+                )
             }
             Quantity::Observation | Quantity::MeasurementNoise | Quantity::Measurement => {
                 format!("the {} {} is not a finite number; {DOMAIN}", quantity.name(), measure(component))
@@ -133,6 +139,20 @@ pub fn set_out(model: &Model, mean: &[f64], fault: &Fault) -> String {
 /// Where numbers that are none come from.
 const DOMAIN: &str =
     "look for a division by zero, the root of a negative number, or an estimate that runs away";
+
+/// What equal steps in continuous time may have done besides.
+fn too_long(choice: Option<&Choice>) -> &'static str {
+    match choice.map(|choice| (choice.time_update, choice.integrator.solver.adaptive())) {
+        Some(
+            (TimeName::ItoTaylor | TimeName::EulerMaruyama, _)
+            | (TimeName::MomentOde | TimeName::LevelSet, false),
+        ) => {
+            "; or the steps are too long for the drift: --set max_step=… bounds them, and --set time_update=moment-ode \
+             with --set solver=rodas4 is for stiff drifts"
+        }
+        _ => "",
+    }
+}
 
 /// The way out of a point where a model has no derivative.
 fn smooth(model: &Model) -> String {

@@ -1,10 +1,10 @@
 //! A step of a filter or a smoother allocates nothing.
 
 use givens::filter::{
-    Cdkf, Ckf, Ckf5, Ekf, Filter, Form, Gaussian, Over, Prior, Qkf, Sizes, SrCdkf, SrCkf, SrCkf5, SrEkf,
-    SrQkf, SrUkf, Ukf,
+    CdCkf2, CdEkf, Cdkf, Ckf, Ckf5, Ekf, Filter, Form, Gaussian, Lskf, Over, Prior, Qkf, Sizes, SrCdCkf,
+    SrCdCkf2, SrCdkf, SrCkf, SrCkf5, SrEkf, SrQkf, SrUkf, Ukf,
 };
-use givens::model::zoo::{CoordinatedTurn, RangeBearing};
+use givens::model::zoo::{Components, CoordinatedTurn, RangeBearing, VanDerPol};
 use givens::smoother::{FixedPoint, History};
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
@@ -119,4 +119,34 @@ fn allocations_are_counted() {
     let before = ALLOCATIONS.get();
     let held = vec![1.0; 64];
     assert!(ALLOCATIONS.get() > before, "{}", held.len());
+}
+
+/// The same in continuous time, over gaps of many steps of a solver.
+fn continuous<X: Over<VanDerPol>>(method: X) -> usize {
+    let model = VanDerPol::default();
+    let sensor = Components { states: 2, which: [0], std: [0.1] };
+    let prior = Gaussian::from_std(&[1.0, 0.0], &[0.3, 0.3]).unwrap();
+    let mut filter = method.start(&model, 0.0, &prior).unwrap();
+    let mut before = 0;
+    for k in 0..11 {
+        if k == 1 {
+            before = ALLOCATIONS.get();
+        }
+        filter.predict(0.4 * (f64::from(k) + 1.0)).unwrap();
+        let z = [filter.mean()[0] + 0.05];
+        filter.update(&sensor, &z).unwrap();
+    }
+    ALLOCATIONS.get() - before
+}
+
+#[test]
+fn no_solver_allocates_in_a_step() {
+    use givens::ode::Solver;
+    assert_eq!(continuous(SrCdCkf::default()), 0, "sr-cd-ckf");
+    assert_eq!(continuous(CdEkf::default()), 0, "cd-ekf");
+    for solver in Solver::ALL {
+        assert_eq!(continuous(CdCkf2 { solver, ..CdCkf2::default() }), 0, "cd-ckf2, {solver:?}");
+        assert_eq!(continuous(SrCdCkf2 { solver, ..SrCdCkf2::default() }), 0, "sr-cd-ckf2, {solver:?}");
+        assert_eq!(continuous(Lskf { solver, ..Lskf::default() }), 0, "lskf, {solver:?}");
+    }
 }

@@ -55,48 +55,10 @@ fn fault(model: &Model, choice: Option<&Choice>, fault: &Fault) -> String {
              other; measure it from a nearer origin, or make its std zero if it is known",
             state(component)
         ),
-        Fault::NotFinite { quantity, component } => match quantity {
-            Quantity::TransitionDerivative => format!(
-                "the derivative of the transition of {}, with respect to the state at the mean, is not a finite number; \
-                 {}",
-                state(component),
-                smooth(model)
-            ),
-            Quantity::ObservationDerivative => format!(
-                "the derivative of the predicted measure {}, with respect to the state at the mean, is not a finite \
-                 number; {}",
-                measure(component),
-                smooth(model)
-            ),
-            Quantity::DriftDerivative => format!(
-                "a derivative of the drift of {}, with respect to the state, is not a finite number; use a method without \
-                 derivatives (--method sr-cd-ckf2), or start off that point",
-                state(component)
-            ),
-            Quantity::Drift if choice.is_some_and(|choice| choice.time_update == TimeName::ItoTaylor) => {
-                format!(
-                    "the drift of {}, or a derivative of it in the expansion, is not a finite number; {DOMAIN}{}",
-                    state(component),
-                    too_long(choice)
-                )
-            }
-            Quantity::Transition
-            | Quantity::Drift
-            | Quantity::Diffusion
-            | Quantity::Estimate
-            | Quantity::ProcessNoise => {
-                format!(
-                    "the {} of {} is not a finite number; {DOMAIN}{}",
-                    quantity.name(),
-                    state(component),
-                    too_long(choice)
-                )
-            }
-            Quantity::Observation | Quantity::MeasurementNoise | Quantity::Measurement => {
-                format!("the {} {} is not a finite number; {DOMAIN}", quantity.name(), measure(component))
-            }
-            _ => fault.to_string(),
-        },
+        Fault::NotFinite { quantity, component } => {
+            let names = (state(component), measure(component));
+            not_finite(model, choice, quantity, names).unwrap_or_else(|| fault.to_string())
+        }
         Fault::Unresolved { component } => format!(
             "the steps are too long for the way back of {}, which a filter alone need not show; more steps (--set \
              substeps=…) or a solver that chooses them (--set solver=dp5)",
@@ -139,6 +101,56 @@ pub fn set_out(model: &Model, mean: &[f64], fault: &Fault) -> String {
 /// Where numbers that are none come from.
 const DOMAIN: &str =
     "look for a division by zero, the root of a negative number, or an estimate that runs away";
+
+/// A quantity that is not a finite number, of this state or of this measure; none that has no more words than its own.
+fn not_finite(
+    model: &Model,
+    choice: Option<&Choice>,
+    quantity: Quantity,
+    (state, measure): (String, String),
+) -> Option<String> {
+    Some(match quantity {
+        Quantity::TransitionDerivative => format!(
+            "the derivative of the transition of {}, with respect to the state at the mean, is not a finite number; \
+                 {}",
+            state,
+            smooth(model)
+        ),
+        Quantity::ObservationDerivative => format!(
+            "the derivative of the predicted measure {}, with respect to the state at the mean, is not a finite \
+                 number; {}",
+            measure,
+            smooth(model)
+        ),
+        Quantity::DriftDerivative => format!(
+            "a derivative of the drift of {state}, with respect to the state, is not a finite number; use a method \
+             without derivatives (--method sr-cd-ckf2), or start off that point"
+        ),
+        Quantity::Drift if choice.is_some_and(|choice| choice.time_update == TimeName::ItoTaylor) => {
+            format!(
+                "the drift of {}, or a derivative of it in the expansion, is not a finite number; {DOMAIN}{}",
+                state,
+                too_long(choice)
+            )
+        }
+        Quantity::Transition
+        | Quantity::Drift
+        | Quantity::Diffusion
+        | Quantity::Estimate
+        | Quantity::ProcessNoise => {
+            format!(
+                "the {} of {} is not a finite number; {DOMAIN}{}",
+                quantity.name(),
+                state,
+                too_long(choice)
+            )
+        }
+        Quantity::Observation | Quantity::MeasurementNoise | Quantity::Measurement => {
+            format!("the {} {} is not a finite number; {DOMAIN}", quantity.name(), measure)
+        }
+        _ => return None,
+    })
+}
 
 /// What equal steps in continuous time may have done besides.
 fn too_long(choice: Option<&Choice>) -> &'static str {

@@ -2,6 +2,7 @@
 
 use crate::continuous::{adapts, run_if_any, tight};
 use crate::distance;
+use givens::filter::Fault;
 use givens::registry::Choice;
 use givens::{Goal, Outcome};
 use givens_tests::choices::continuous_choices;
@@ -65,7 +66,8 @@ proptest! {
             // a rule with negative weights may fail on a nonlinear problem
             let Ok(alone) = problem.run(&choice, Goal::Interval).into_result() else { continue };
             let all = run_at(&problem, &choice, Goal::Interval, &at);
-            if all.failure.is_some() {
+            if let Some((_, error)) = &all.failure {
+                prop_assert!(matches!(error.fault, Fault::NotPositive { .. }), "{} {}", name, error);
                 continue;
             }
             prop_assert_eq!(&all.estimates.mean, &alone.mean, "{}", name);

@@ -63,7 +63,7 @@ fn every_square_root_method_loses_no_more_than_the_numbers_themselves() {
                 for update in [Block::Joint, Block::Separate] {
                     let [mean, std] = errors($method { update, ..$method::default() }, &model);
                     let what = format!("{} {update:?}, s = {:e}: {mean} {std}", stringify!($method), model.s);
-                    assert!(mean < 16.0 && std < 16.0, "{what}");
+                    assert!(mean < 4.0 && std < 4.0, "{what}");
                 }
             )*};
         }

@@ -17,10 +17,15 @@ pub fn reproduce(args: &ReproduceArgs) -> Result<(), Stop> {
     let command = typed(args);
     if let Some(folder) = &args.output {
         make_folder(folder).map_err(|error| Stop::input(error.to_string()))?;
+        // a folder that cannot be written is known before the work, not after it
+        drop(Sink::open(Some(&folder.join("index.md")))?);
     }
     let mut pages: Vec<(&Paper, &Experiment, Page)> = Vec::new();
     for (paper, experiment) in wanted {
         let name = format!("{} {}", paper.key, experiment.name);
+        if args.runs.is_some() && experiment.runs == 0 {
+            say(&format!("{name}: nothing is drawn, --runs makes no difference"));
+        }
         let (bar, since) = (Bar::new(&name), Instant::now());
         let plan = Plan { runs: args.runs.map(|runs| runs as usize), seed: args.seed, progress: &bar };
         let page = (experiment.run)(&plan).map_err(|error| Stop::failed(format!("{name}: {error}")))?;

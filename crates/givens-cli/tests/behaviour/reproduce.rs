@@ -47,3 +47,20 @@ fn without_a_folder_the_claims_go_to_standard_output() {
     assert!(run.stdout.contains("| CKF position, m | 23.15 | "), "{}", run.stdout);
     assert!(folder.files().is_empty());
 }
+
+#[test]
+fn runs_of_what_draws_nothing_are_said_to_make_no_difference() {
+    let folder = Folder::new("nothing_drawn");
+    let run = folder.run("reproduce arasaratnam2010continuous --only table-5 --runs 3").good();
+    assert!(run.stderr.contains("table-5: nothing is drawn, --runs makes no difference\n"), "{}", run.stderr);
+}
+
+#[test]
+fn a_folder_that_cannot_be_written_is_known_before_the_work() {
+    let folder = Folder::new("unwritable");
+    fs::create_dir_all(folder.path("pages/index.md")).unwrap();
+    let run = folder.run("reproduce arasaratnam2011smoothers --only table-4 -o pages");
+    assert_eq!((run.code, run.stdout.as_str()), (2, ""));
+    assert!(run.stderr.contains("cannot write pages/index.md: it is a folder"), "{}", run.stderr);
+    assert!(!run.stderr.contains("claims"), "{}", run.stderr);
+}

@@ -10,8 +10,8 @@ use crate::filter::memory::{larger, put_columns, take};
 use crate::kernels::{add_outer, cholesky_scaled, dot, solve_lower_rows, square};
 use crate::scalar::{Mask, Real};
 
-/// A pivot of P_zz, squared, of less than this many ε of its diagonal is known too badly to be divided by: the mean would
-/// be wrong by more than a thousandth of its standard deviation.
+/// A pivot of P_zz, squared, of less than this many ε of its diagonal is known too badly to be divided by: the mean may
+/// be wrong by a thousandth of its standard deviation.
 const LEAST: f64 = 1024.0;
 
 /// Scalars of scratch of [`update`], for `columns` columns of Z and noise and `lost` negative ones.

@@ -38,6 +38,12 @@ impl Node {
     pub(crate) fn index(self) -> usize {
         self.0 as usize
     }
+
+    /// The number by which a front end in another language knows it; see [`Graph::node`].
+    #[must_use]
+    pub fn number(self) -> u32 {
+        self.0
+    }
 }
 
 /// How a node is made from others, which all have smaller indices.
@@ -124,6 +130,11 @@ impl Graph {
     /// An error if the graph is full.
     pub(crate) fn check(&self) -> Result<(), GraphError> {
         if self.full { Err(GraphError::TooLarge) } else { Ok(()) }
+    }
+
+    /// The node of this number, if there is one.
+    pub fn node(&self, number: u32) -> Option<Node> {
+        ((number as usize) < self.ops.len()).then_some(Node(number))
     }
 
     /// The quantity `input`.

@@ -5,8 +5,13 @@ use crate::tree::{File, Tree};
 use toml::de::DeTable;
 
 /// A crate may depend on those of the ranks before its own.
-const RANKS: &[&[&str]] =
-    &[&["givens-core"], &["givens-expr", "givens"], &["givens-io"], &["givens-papers"], &["givens-cli"]];
+const RANKS: &[&[&str]] = &[
+    &["givens-core"],
+    &["givens-expr", "givens"],
+    &["givens-io"],
+    &["givens-papers"],
+    &["givens-cli", "givens-python"],
+];
 
 /// The tables of a manifest whose crates end in what a user builds.
 const TABLES: &[&str] = &["dependencies", "build-dependencies"];

@@ -1,0 +1,1 @@
+"""Nonlinear Gaussian state estimation: filters and smoothers of the cubature family."""

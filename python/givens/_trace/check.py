@@ -1,0 +1,173 @@
+"""Whether a trace computes what the function computes: both, at random points."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from random import Random
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from givens._native import Graph
+from givens._trace.place import of_function
+from givens._trace.refuse import refuse
+from givens._trace.tracer import Sizes, Traced
+from givens.errors import GivensError, TraceError
+
+__all__ = ["Point", "compare"]
+
+Array = npt.NDArray[np.float64]
+
+#: Sizes of the states that are tried, and how many points of each.
+_SCALES = (1.0, 0.03, 30.0, 1e3, 1e6)
+_EACH = 4
+_RELATIVE = 1e-9
+
+
+@dataclass(frozen=True)
+class Point:
+    """Arguments of one call."""
+
+    t: float
+    dt: float
+    x: Array
+    u: Array
+    p: Array
+
+    def named(self, positions: Sequence[str]) -> str:
+        """As words: `t = 0.3, x = [1, 2]`."""
+        values = {"t": self.t, "dt": self.dt, "x": self.x, "u": self.u}
+        parts = [f"{name} = {_digits(values[name])}" for name in positions]
+        return ", ".join(parts + ([f"parameters = {_digits(self.p)}"] if self.p.size else []))
+
+
+def _digits(value: Any) -> str:
+    if np.ndim(value):
+        return f"[{', '.join(f'{number:.17g}' for number in np.ravel(value))}]"
+    return f"{value:.17g}"
+
+
+def _points(sizes: Sizes, values: Array, near: Array | None) -> Iterator[Point]:
+    """States of several sizes, of either sign and of positive sign; parameters at and around their values."""
+    # Python's own generator: NumPy's takes longer to import than all of this
+    random = Random(20090513)
+
+    def normal(length: int) -> Array:
+        return np.array([random.gauss() for _ in range(length)])
+
+    def uniform(low: float, high: float, length: int) -> Array:
+        return np.array([random.uniform(low, high) for _ in range(length)])
+
+    def point(x: Array, u: Array, p: Array) -> Point:
+        return Point(random.uniform(0, 10), random.uniform(0.01, 1), x, u, p)
+
+    for scale in _SCALES:
+        for k in range(_EACH):
+            x, u = normal(sizes.states), normal(sizes.controls)
+            x, u = (x, u) if k % 2 else (np.abs(x), np.abs(u))
+            yield point(scale * x, u, values * (uniform(0.8, 1.25, values.size) if k else 1.0))
+    for k in range(_EACH if near is not None else 0):
+        x = np.asarray(near) * (1 + 0.1 * k * uniform(-1, 1, sizes.states))
+        yield point(x, normal(sizes.controls), values)
+
+
+def compare(
+    function: Callable[..., Any],
+    traced: Traced,
+    sizes: Sizes,
+    names: tuple[str, ...],
+    near: Array | None = None,
+) -> None:
+    """Raises a `TraceError` if the trace and the function differ anywhere, or the function is finite nowhere."""
+    points = list(_points(sizes, traced.arguments.values, near))
+    found = _evaluated(traced, points)
+    counted, last = 0, "it is finite at none of them"
+    for point, expressions in zip(points, found, strict=True):
+        try:
+            real = _real(function, traced, point, names)
+            again = _real(function, traced, point, names)
+            nearby = _real(function, traced, _moved(point), names)
+        except GivensError:
+            raise
+        except Exception as error:
+            last = f"it raised {type(error).__name__}: {error}"
+            continue
+        if real.shape != expressions.shape:
+            raise _differs(function, f"it gives {real.size} numbers, and {expressions.size} when traced")
+        if not np.array_equal(real, again, equal_nan=True):
+            raise refuse(
+                "called twice with the same numbers, it gives different results",
+                "leave out what changes between calls, such as random numbers, the clock and counters",
+                of_function(function),
+            )
+        wrong = _wrong(real, nearby, expressions)
+        if wrong is not None:
+            at = _component(wrong, traced.shape, names)
+            raise _differs(
+                function,
+                f"{at} is {_digits(real[wrong])}, but its expressions give {_digits(expressions[wrong])} "
+                f"at {point.named(traced.arguments.positions)}",
+            )
+        counted += bool(np.isfinite(real).all())
+    if not counted:
+        raise refuse(
+            f"it cannot be compared with its expressions at any of {len(points)} random points: {last}",
+            "pass check_at=… with a state where it is finite",
+            of_function(function),
+        )
+
+
+def _differs(function: Callable[..., Any], said: str) -> TraceError:
+    return refuse(
+        f"its expressions do not compute what it computes: {said}",
+        "values read from elsewhere must not change between calls, and branches must be np.where; or pass trace=False",
+        of_function(function),
+    )
+
+
+def _wrong(real: Array, nearby: Array, found: Array) -> int | None:
+    """The first component that differs by more than rounding can explain."""
+    with np.errstate(all="ignore"):
+        room = _RELATIVE * np.abs(real) + 1e3 * np.abs(real - nearby)
+        equal = (np.abs(real - found) <= room) | (real == found) | np.isnan(real)
+    wrong = np.flatnonzero(~equal)
+    return int(wrong[0]) if wrong.size else None
+
+
+def _moved(point: Point) -> Point:
+    """By one unit in the last place: how far the function moves there is how well it can be computed."""
+
+    def moved(values: Array) -> Array:
+        return values * (1 + 2.0**-51)
+
+    return Point(point.t, point.dt, moved(point.x), moved(point.u), moved(point.p))
+
+
+def _real(function: Callable[..., Any], traced: Traced, point: Point, names: tuple[str, ...]) -> Array:
+    positions = {"t": point.t, "dt": point.dt, "x": point.x.copy(), "u": point.u.copy()}
+    parameters, start = {}, 0
+    for name, value in traced.arguments.parameters.items():
+        part = point.p[start : start + value.size].reshape(value.shape)
+        parameters[name] = float(part) if part.ndim == 0 else part.copy()
+        start += value.size
+    with np.errstate(all="ignore"):
+        result = function(*(positions[name] for name in traced.arguments.positions), **parameters)
+    if isinstance(result, dict):
+        result = [result[name] for name in names]
+    return np.asarray(result, dtype=float).ravel()
+
+
+def _evaluated(traced: Traced, points: Sequence[Point]) -> Array:
+    graph = Graph()
+    nodes = traced.tape.lay_into(graph, traced.nodes)
+    rows = [graph.evaluate(nodes, point.x, point.t, point.dt, point.u, point.p) for point in points]
+    return np.array(rows).reshape(len(points), len(nodes))
+
+
+def _component(k: int, shape: tuple[int, ...], names: tuple[str, ...]) -> str:
+    if len(shape) == 1 and k < len(names):
+        return f"component {names[k]!r}"
+    at = np.unravel_index(k, shape) if shape else ()
+    return f"component [{', '.join(map(str, at))}]" if at else "the value"

@@ -1,0 +1,74 @@
+"""Where in the user's program something happened."""
+
+from __future__ import annotations
+
+import linecache
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+from types import CodeType, FrameType, TracebackType
+
+import numpy as np
+
+__all__ = ["Place", "here", "of_function", "of_traceback"]
+
+_OURS = (str(Path(__file__).parent), str(Path(np.__file__).parent))
+
+
+@dataclass(frozen=True)
+class Place:
+    """A line of a program."""
+
+    function: str | None = None
+    file: str | None = None
+    line: int | None = None
+    source: str | None = None
+
+    def __str__(self) -> str:
+        if self.file is None:
+            return self.function or "the function"
+        inside = f", in {self.function}" if self.function else ""
+        text = f": `{self.source}`" if self.source else ""
+        return f"{_short(self.file)}:{self.line}{inside}{text}"
+
+
+def here() -> Place:
+    """The innermost line that is neither this package's nor NumPy's."""
+    frame: FrameType | None = sys._getframe(1)
+    while frame is not None:
+        if not frame.f_code.co_filename.startswith(_OURS):
+            return _place(frame.f_code, frame.f_lineno)
+        frame = frame.f_back
+    return Place()
+
+
+def of_traceback(traceback: TracebackType | None) -> Place:
+    """The innermost such line of a traceback."""
+    found = Place()
+    while traceback is not None:
+        code = traceback.tb_frame.f_code
+        if not code.co_filename.startswith(_OURS):
+            found = _place(code, traceback.tb_lineno)
+        traceback = traceback.tb_next
+    return found
+
+
+def of_function(function: object) -> Place:
+    """The line where a function begins."""
+    code = getattr(getattr(function, "__func__", function), "__code__", None)
+    if isinstance(code, CodeType):
+        return Place(code.co_qualname, code.co_filename, code.co_firstlineno, None)
+    return Place(getattr(function, "__qualname__", None) or type(function).__name__)
+
+
+def _short(file: str) -> str:
+    """As seen from the working folder, if the file lies in it."""
+    try:
+        return str(Path(file).relative_to(Path.cwd()))
+    except (ValueError, OSError):
+        return file
+
+
+def _place(code: CodeType, line: int) -> Place:
+    source = linecache.getline(code.co_filename, line).strip() or None
+    return Place(code.co_qualname, code.co_filename, line, source)

@@ -1,0 +1,107 @@
+"""What is said of a function that cannot be traced, and how NumPy would write it."""
+
+from __future__ import annotations
+
+import re
+from contextvars import ContextVar
+
+from givens._trace.place import Place, here
+from givens.errors import TraceError
+
+__all__ = ["failures", "refuse", "refuse_branch", "refuse_conversion", "refuse_function"]
+
+#: The first refusal while a function is traced: one that the function itself caught is raised all the same.
+failures: ContextVar[list[TraceError] | None] = ContextVar("failures", default=None)
+
+
+def refuse(message: str, remedy: str, place: Place | None = None) -> TraceError:
+    """The error for the line at work; the caller raises it."""
+    place = here() if place is None else place
+    error = TraceError(
+        f"{place}: {message}",
+        function=place.function,
+        file=place.file,
+        line=place.line,
+        source=place.source,
+        remedy=remedy,
+    )
+    noted = failures.get()
+    if noted is not None and not noted:
+        noted.append(error)
+    return error
+
+
+_KNOWN = "a value holds that is not known yet"
+_WHERE = "write np.where(condition, yes, no)"
+#: What in a line asks for true or false, how that is said, and the way to write it.
+_BRANCHES = (
+    (r"\bmin\s*\(", "`min` compares values that are not known yet", "write np.minimum(a, b)"),
+    (r"\bmax\s*\(", "`max` compares values that are not known yet", "write np.maximum(a, b)"),
+    (
+        r"\bsorted\s*\(|\.sort\(",
+        "sorting compares values that are not known yet",
+        "write np.minimum and np.maximum of the elements",
+    ),
+    (r"\band\b", f"`and` asks whether {_KNOWN}", "write (a > 0) & (b > 0) inside np.where(condition, yes, no)"),
+    (r"\bor\b", f"`or` asks whether {_KNOWN}", "write (a > 0) | (b > 0) inside np.where(condition, yes, no)"),
+    (r"\bnot\b", f"`not` asks whether {_KNOWN}", "write ~(a > 0) inside np.where(condition, yes, no)"),
+    (
+        r"\bwhile\b",
+        f"`while` asks whether {_KNOWN}",
+        "repeat a fixed number of times with `for`, and keep values with np.where(condition, yes, no)",
+    ),
+    (r"\bassert\b", f"`assert` asks whether {_KNOWN}", "check numbers outside of the function"),
+    (
+        r"<[^<>]*<|>[^<>]*>",
+        f"a chain of comparisons asks whether {_KNOWN}",
+        "write (a < b) & (b < c) inside np.where(condition, yes, no)",
+    ),
+    (r"\bif\b", f"`if` asks whether {_KNOWN}", _WHERE),
+)
+
+
+def refuse_branch() -> TraceError:
+    """Of a symbol taken as true or false."""
+    place = here()
+    for pattern, said, remedy in _BRANCHES:
+        if re.search(pattern, place.source or ""):
+            return refuse(said, remedy, place)
+    return refuse("a value that is not known yet is taken as true or false", _WHERE, place)
+
+
+_CONVERSIONS = {
+    "float": "leave the conversion out; fill arrays made by np.zeros or np.array inside the function",
+    "int": "np.floor(x) or np.trunc(x) stay expressions",
+    "complex": "write real and imaginary parts as two numbers",
+    "index": "an index, a size or a count must be a number; fix it with functools.partial(function, name=number)",
+    "round": "np.round(x) stays an expression",
+    "str": "what is printed or formatted must be a number; leave it out",
+}
+
+
+def refuse_conversion(kind: str, remedy: str | None = None) -> TraceError:
+    """Of a symbol that was to become a plain number."""
+    what = {"index": "used as an index or a count", "round": "rounded to a plain number"}
+    said = what.get(kind, f"turned into {'an' if kind == 'int' else 'a'} {kind}")
+    return refuse(f"a value that is not known yet is {said}", remedy or _CONVERSIONS[kind])
+
+
+def refuse_function(name: str, remedy: str | None = None) -> TraceError:
+    """Of a function that has no expression."""
+    return refuse(f"{name} has no expression here", remedy or _no_expression(name))
+
+
+_INSTEAD = {
+    "numpy.sort": "write np.minimum and np.maximum of the elements",
+    "numpy.argmax": "write np.where(a > b, …, …)",
+    "numpy.argmin": "write np.where(a < b, …, …)",
+    "numpy.median": "for three numbers, np.maximum(np.minimum(a, b), np.minimum(np.maximum(a, b), c))",
+    "numpy.unwrap": "declare the angle: Sensor(…, angles=[name]) wraps innovations everywhere",
+    "numpy.linalg.eig": "write the eigenvalues by formula, or pass trace=False",
+    "numpy.linalg.pinv": "write A.T @ np.linalg.inv(A @ A.T), or pass trace=False",
+    "numpy.linalg.lstsq": "write np.linalg.solve(A.T @ A, A.T @ b)",
+}
+
+
+def _no_expression(name: str) -> str:
+    return _INSTEAD.get(name, "write it with arithmetic and NumPy's elementary functions, or pass trace=False")

@@ -1,0 +1,135 @@
+"""Calling a function with symbols."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from givens._trace.arguments import Arguments
+from givens._trace.array import SymArray, boxed
+from givens._trace.place import of_function, of_traceback
+from givens._trace.refuse import failures, refuse
+from givens._trace.symbol import Sym
+from givens._trace.tape import Tape
+from givens._trace.transplant import transplanted
+from givens.errors import GivensError, TraceError
+
+__all__ = ["Sizes", "Traced", "trace"]
+
+
+@dataclass(frozen=True)
+class Sizes:
+    """Lengths of the state and of the controls."""
+
+    states: int
+    controls: int
+
+
+@dataclass(frozen=True)
+class Traced:
+    """What a function computes: its tape, and the instructions that give its results."""
+
+    tape: Tape
+    nodes: tuple[int, ...]
+    shape: tuple[int, ...]
+    arguments: Arguments
+
+    def pruned(self) -> Traced:
+        """Without what does not matter for the results."""
+        tape, nodes = self.tape.pruned(self.nodes)
+        return Traced(tape, tuple(nodes), self.shape, self.arguments)
+
+
+def trace(function: Callable[..., Any], arguments: Arguments, sizes: Sizes, names: tuple[str, ...] = ()) -> Traced:
+    """Traces a function twice and makes sure that both traces are the same.
+
+    `names` are those of its results, where it may answer with a table by name.
+    """
+    tape = Tape()
+    first = _called(function, arguments, sizes, tape, names)
+    second = _called(function, arguments, sizes, tape, names)
+    if first.shape != second.shape or _nodes(tape, first) != _nodes(tape, second):
+        raise refuse(
+            "called twice with the same arguments, it computes different things",
+            "leave out what changes between calls, such as random numbers, the clock and counters",
+            of_function(function),
+        )
+    return Traced(tape, _nodes(tape, first), first.shape, arguments).pruned()
+
+
+def _nodes(tape: Tape, result: SymArray) -> tuple[int, ...]:
+    return tuple(value.node if isinstance(value, Sym) else tape.constant(float(value)) for value in result.flat)
+
+
+def _symbols(tape: Tape, kind: str, shape: tuple[int, ...], start: int = 0) -> Any:
+    if shape == ():
+        return Sym(tape, tape.put(kind, start))
+    array = np.empty(shape, dtype=object)
+    for k, at in enumerate(np.ndindex(shape)):
+        array[at] = Sym(tape, tape.put(kind, start + k))
+    return array.view(SymArray)
+
+
+def _called(
+    function: Callable[..., Any], arguments: Arguments, sizes: Sizes, tape: Tape, names: tuple[str, ...]
+) -> SymArray:
+    stand_for: dict[str, Callable[[], Any]] = {
+        "t": lambda: Sym(tape, tape.put("time")),
+        "dt": lambda: Sym(tape, tape.put("step")),
+        "x": lambda: _symbols(tape, "state", (sizes.states,)),
+        "u": lambda: _symbols(tape, "control", (sizes.controls,)),
+    }
+    parameters, start = {}, 0
+    for name, value in arguments.parameters.items():
+        parameters[name] = _symbols(tape, "parameter", value.shape, start)
+        start += value.size
+    positions = [stand_for[position]() for position in arguments.positions]
+    noted: list[TraceError] = []
+    token = failures.set(noted)
+    try:
+        with np.errstate(all="ignore"):
+            result: Any = transplanted(function)(*positions, **parameters)
+    except GivensError as error:
+        raise (noted[0] if noted else error) from None
+    except Exception as error:
+        if noted:
+            raise noted[0] from error
+        raise _foreign(error, function) from error
+    finally:
+        failures.reset(token)
+    if noted:
+        raise noted[0]
+    return _answer(result, function, names)
+
+
+def _foreign(error: Exception, function: Callable[..., Any]) -> TraceError:
+    """What the function itself, or a library it calls, raised."""
+    place = of_traceback(error.__traceback__)
+    place = place if place.file else of_function(function)
+    said = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
+    return refuse(
+        f"when called with symbols it raised {said}",
+        "call it with numbers first; if it is right, write it in NumPy's own functions, or pass trace=False",
+        place,
+    )
+
+
+def _answer(result: Any, function: Callable[..., Any], names: tuple[str, ...]) -> SymArray:
+    place = of_function(function)
+    if result is None:
+        raise refuse("it returns nothing", "end it with `return [...]`", place)
+    if isinstance(result, dict):
+        missing = [name for name in names if name not in result]
+        other = [name for name in result if name not in names]
+        if missing or other:
+            wrong = f"{missing[0]!r} is missing" if missing else f"{other[0]!r} is none of them"
+            raise refuse(f"it returns a table in which {wrong}", f"its names are {', '.join(names)}", place)
+        result = [result[name] for name in names]
+    try:
+        return boxed(result)
+    except (ValueError, TraceError):
+        said = "it returns something else than an array of numbers"
+        raise refuse(said, "return a list of numbers; np.concatenate and np.hstack join arrays", place) from None

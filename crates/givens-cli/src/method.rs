@@ -203,7 +203,7 @@ pub fn title(choice: &Choice) -> String {
 }
 
 /// The kind of a model.
-fn kind(model: &Model) -> Kind {
+pub fn kind(model: &Model) -> Kind {
     match model.dynamics {
         Dynamics::Discrete(_) => Kind::Discrete,
         Dynamics::Continuous(_) => Kind::Continuous,

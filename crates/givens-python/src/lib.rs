@@ -2,7 +2,20 @@
 // PyO3 hands arguments over by value
 #![expect(clippy::needless_pass_by_value)]
 
+mod choice;
+mod crowd;
+mod errors;
+mod estimates;
+mod failure;
 mod graph;
+mod metrics;
+mod model;
+mod numbers;
+mod rows;
+mod run;
+mod simulate;
+mod table;
+mod watch;
 
 use pyo3::prelude::*;
 
@@ -10,5 +23,19 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _native {
     #[pymodule_export]
+    use crate::choice::{Choice, methods, options};
+    #[pymodule_export]
+    use crate::estimates::Estimates;
+    #[pymodule_export]
     use crate::graph::Graph;
+    #[pymodule_export]
+    use crate::metrics::{accuracy, consistency};
+    #[pymodule_export]
+    use crate::model::{Function, Model};
+    #[pymodule_export]
+    use crate::run::{run, run_batch};
+    #[pymodule_export]
+    use crate::simulate::simulate;
+    #[pymodule_export]
+    use crate::table::read_tracks;
 }

@@ -25,6 +25,7 @@ pub use givens_core::{filter, kernels, model, ode, rule, scalar, smoother};
 
 mod data;
 mod estimates;
+pub mod explain;
 pub mod metrics;
 pub mod registry;
 mod run;

@@ -83,6 +83,8 @@ pub struct Model {
     pub placement: Option<Start>,
     /// What `[filter]` says.
     pub filter: FilterSettings,
+    /// What it was read from.
+    source: Source,
 }
 
 impl Model {
@@ -116,6 +118,14 @@ impl Model {
     /// As [`read_with`](Self::read_with).
     pub fn parse_with(text: &str, name: &str, parameters: &[(&str, f64)]) -> Result<Self, InputErrors> {
         read::model(&Source::new(name, text.to_string()), parameters)
+    }
+
+    /// The same model with other values for some parameters, from the text that was read; what it makes of them follows.
+    ///
+    /// # Errors
+    /// As [`read_with`](Self::read_with).
+    pub fn again_with(&self, parameters: &[(&str, f64)]) -> Result<Self, InputErrors> {
+        read::model(&self.source, parameters)
     }
 
     /// Number of measures of all sensors.

@@ -125,6 +125,7 @@ fn sections(findings: &Findings, document: &[Entry], given: &[(&str, f64)]) -> O
         plane,
         placement,
         filter: filter.unwrap_or_default(),
+        source: findings.source.clone(),
     })
 }
 

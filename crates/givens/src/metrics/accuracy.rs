@@ -30,19 +30,25 @@ pub struct Accuracy {
 impl Accuracy {
     /// Compares an estimate with the truth at its rows.
     pub fn of(est: &Estimates, truth: &Truth) -> Self {
-        let n = est.states();
+        Self::of_rows(est.states(), &est.mean, &est.cov, &truth.states)
+    }
+
+    /// The same of plain numbers: rows × n means, rows × n × n covariances, and the true states, NaN where one is not
+    /// known. Rows that one of them lacks are left out.
+    pub fn of_rows(n: usize, mean: &[f64], cov: &[f64], truth: &[f64]) -> Self {
         let mut sums = vec![(0.0, 0usize, 0usize); n];
         let (mut nees_sum, mut dof_sum, mut count) = (0.0, 0usize, 0usize);
-        for (row, truth) in truth.states.chunks_exact(n.max(1)).enumerate().take(est.len()) {
-            let error: Vec<f64> = est.mean(row).iter().zip(truth).map(|(m, x)| m - x).collect();
+        let rows = mean.chunks_exact(n.max(1)).zip(cov.chunks_exact((n * n).max(1)));
+        for ((mean, cov), truth) in rows.zip(truth.chunks_exact(n.max(1))) {
+            let error: Vec<f64> = mean.iter().zip(truth).map(|(m, x)| m - x).collect();
             for (i, (sum, inside, rows)) in sums.iter_mut().enumerate() {
                 if !error[i].is_nan() {
                     *sum += error[i] * error[i];
-                    *inside += usize::from(error[i].abs() <= 2.0 * est.std(row, i));
+                    *inside += usize::from(error[i].abs() <= 2.0 * cov[i * n + i].max(0.0).sqrt());
                     *rows += 1;
                 }
             }
-            if let Some((value, dof)) = nees(&error, est.cov(row)) {
+            if let Some((value, dof)) = nees(&error, cov) {
                 nees_sum += value;
                 dof_sum += dof;
                 count += 1;

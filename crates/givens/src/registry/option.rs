@@ -51,7 +51,7 @@ impl Reader {
     }
 
     /// Whether `choice` is among them.
-    pub(super) fn reads(self, choice: &Choice) -> bool {
+    pub fn reads(self, choice: &Choice) -> bool {
         let time = choice.time_update;
         let adaptive = time.solves() && choice.integrator.solver.adaptive();
         match self {

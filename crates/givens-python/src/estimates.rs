@@ -1,0 +1,92 @@
+//! What a run has learnt, as arrays of NumPy.
+
+use givens::filter::StepError;
+use givens::registry::Choice;
+use givens::{Estimates as Rows, Outcome};
+use numpy::{PyArray1, PyArrayDyn, PyArrayMethods};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::failure::{self, At};
+use crate::model::Model;
+use crate::numbers::frozen;
+
+type Array = Py<PyArrayDyn<f64>>;
+
+/// The estimates of a trajectory, row by row; see the stub.
+///
+/// The arrays are made once, from the memory in which the run has left them, and cannot be written to.
+#[pyclass(module = "givens._native", frozen, get_all)]
+#[derive(Debug)]
+pub struct Estimates {
+    time: Array,
+    mean: Array,
+    cov: Array,
+    filtered_mean: Array,
+    filtered_cov: Array,
+    predicted_mean: Array,
+    predicted_cov: Array,
+    innovation: Array,
+    innovation_cov: Array,
+    nis: Array,
+    nis_dof: Py<PyArray1<i64>>,
+    log_likelihood: Array,
+    smoothed: bool,
+    at: Option<Py<Estimates>>,
+    failure: Option<Py<PyDict>>,
+}
+
+impl Estimates {
+    fn of_rows(py: Python<'_>, rows: Rows, n: usize, d: usize) -> PyResult<Self> {
+        let (k, smoothed) = (rows.len(), rows.is_smoothed());
+        let array = |values: Vec<f64>, shape: &[usize]| frozen(py, values, shape).map(Bound::unbind);
+        let mean = array(rows.mean, &[k, n])?;
+        let cov = array(rows.cov, &[k, n, n])?;
+        let (filtered_mean, filtered_cov) = if smoothed {
+            (array(rows.filtered_mean, &[k, n])?, array(rows.filtered_cov, &[k, n, n])?)
+        } else {
+            (mean.clone_ref(py), cov.clone_ref(py))
+        };
+        let dof: Vec<i64> = rows.nis_dof.iter().map(|&dof| dof as i64).collect();
+        let nis_dof = PyArray1::from_vec(py, dof);
+        nis_dof.readwrite().make_nonwriteable();
+        Ok(Self {
+            time: array(rows.time, &[k])?,
+            mean,
+            cov,
+            filtered_mean,
+            filtered_cov,
+            predicted_mean: array(rows.predicted_mean, &[k, n])?,
+            predicted_cov: array(rows.predicted_cov, &[k, n, n])?,
+            innovation: array(rows.innovation, &[k, d])?,
+            innovation_cov: array(rows.innovation_cov, &[k, d, d])?,
+            nis: array(rows.nis, &[k])?,
+            nis_dof: nis_dof.unbind(),
+            log_likelihood: array(rows.log_likelihood, &[k])?,
+            smoothed,
+            at: None,
+            failure: None,
+        })
+    }
+
+    /// What came of a run; with `at` if other times were asked for.
+    pub fn of(py: Python<'_>, outcome: Outcome, model: &Model, choice: &Choice, at: bool) -> PyResult<Self> {
+        let (n, d) = (model.states(), model.measures());
+        let Outcome { estimates, failure, at: there, failed_at } = outcome;
+        let failure = failure.as_ref().map(|(row, error): &(usize, StepError)| {
+            let at = At { row: Some(*row), mean: &failed_at };
+            failure::dict(py, model, Some(choice), error, at).map(Bound::unbind)
+        });
+        let there = at.then(|| Py::new(py, Self::of_rows(py, there, n, d)?));
+        let own = Self::of_rows(py, estimates, n, d)?;
+        Ok(Self { at: there.transpose()?, failure: failure.transpose()?, ..own })
+    }
+}
+
+#[pymethods]
+impl Estimates {
+    fn __len__(&self, py: Python<'_>) -> PyResult<usize> {
+        use numpy::PyUntypedArrayMethods;
+        Ok(self.time.bind(py).len())
+    }
+}

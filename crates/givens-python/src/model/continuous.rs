@@ -1,0 +1,172 @@
+//! Continuous models: traced, or with functions that are called.
+
+use std::sync::Arc;
+
+use givens::model::{At, Linear, Sde, Varies, expansion_by_duals, expansion_scratch};
+use givens::scalar::Real;
+use givens_expr::ModelSde;
+
+use super::part::Part;
+use crate::watch::go_on;
+
+/// dx = f dt + G dβ, however it was given. A clone shares everything but the values of the parameters.
+#[derive(Clone, Debug)]
+pub struct Continuous {
+    way: Arc<Way>,
+    parameters: Vec<f64>,
+}
+
+#[derive(Debug)]
+enum Way {
+    Traced(ModelSde),
+    Called(Called),
+}
+
+/// A drift or a diffusion that is called.
+#[derive(Debug)]
+pub struct Called {
+    pub states: usize,
+    pub noises: usize,
+    pub controls: usize,
+    pub parameters: usize,
+    pub drift: Part,
+    /// n × q row by row.
+    pub diffusion: Part,
+    pub varies: Varies,
+}
+
+impl Continuous {
+    /// Of expressions.
+    pub fn traced(model: ModelSde) -> Self {
+        let parameters = model.parameters().to_vec();
+        Self { way: Arc::new(Way::Traced(model)), parameters }
+    }
+
+    /// Of functions.
+    pub fn called(model: Called, parameters: Vec<f64>) -> Self {
+        Self { way: Arc::new(Way::Called(model)), parameters }
+    }
+
+    /// The functions, if some are called.
+    pub fn functions(&self) -> Option<&Called> {
+        match &*self.way {
+            Way::Traced(_) => None,
+            Way::Called(called) => Some(called),
+        }
+    }
+
+    /// The same with other values, as many as there are.
+    pub fn with(&self, parameters: Vec<f64>) -> Self {
+        Self { way: Arc::clone(&self.way), parameters }
+    }
+}
+
+impl Sde for Continuous {
+    fn states(&self) -> usize {
+        match &*self.way {
+            Way::Traced(model) => model.states(),
+            Way::Called(model) => model.states,
+        }
+    }
+
+    fn noises(&self) -> usize {
+        match &*self.way {
+            Way::Traced(model) => model.noises(),
+            Way::Called(model) => model.noises,
+        }
+    }
+
+    fn controls(&self) -> usize {
+        match &*self.way {
+            Way::Traced(model) => model.controls(),
+            Way::Called(model) => model.controls,
+        }
+    }
+
+    fn parameters(&self) -> &[f64] {
+        &self.parameters
+    }
+
+    fn drift<T: Real>(&self, at: &At<T>, x: &[T], dx: &mut [T]) {
+        if !go_on() {
+            return dx.fill(T::of(f64::NAN));
+        }
+        match &*self.way {
+            Way::Traced(model) => model.drift(at, x, dx),
+            Way::Called(model) => model.drift.one(at, x, dx),
+        }
+    }
+
+    fn diffusion<T: Real>(&self, at: &At<T>, x: &[T], g: &mut [T]) {
+        match &*self.way {
+            Way::Traced(model) => model.diffusion(at, x, g),
+            Way::Called(model) => model.diffusion.noise(at, x, g),
+        }
+    }
+
+    fn diffusion_varies(&self) -> Varies {
+        match &*self.way {
+            Way::Traced(model) => model.diffusion_varies(),
+            Way::Called(model) => model.varies,
+        }
+    }
+
+    fn drift_scratch(&self, points: usize) -> usize {
+        match &*self.way {
+            Way::Traced(model) => model.drift_scratch(points),
+            Way::Called(model) => model.drift.scratch(model.states, points, model.beside()),
+        }
+    }
+
+    fn drift_points<T: Real>(&self, at: &At<T>, points: usize, x: &[T], out: &mut [T], scratch: &mut [T]) {
+        if !go_on() {
+            return out.fill(T::of(f64::NAN));
+        }
+        match &*self.way {
+            Way::Traced(model) => model.drift_points(at, points, x, out, scratch),
+            Way::Called(model) => model.drift.points(at, points, x, out, scratch),
+        }
+    }
+
+    fn drift_linear<T: Real>(&self, at: &At<T>, x: &[T], s: &[T], out: Linear<T>, scratch: &mut [T]) {
+        if !go_on() {
+            return out.value.fill(T::of(f64::NAN));
+        }
+        match &*self.way {
+            Way::Traced(model) => model.drift_linear(at, x, s, out, scratch),
+            Way::Called(model) => model.drift.linear(at, x, s, out, scratch),
+        }
+    }
+
+    fn expansion_scratch(&self, points: usize) -> usize {
+        match &*self.way {
+            Way::Traced(model) => model.expansion_scratch(points),
+            Way::Called(model) => expansion_scratch(model.states, model.noises, model.beside()),
+        }
+    }
+
+    fn expansion_points<T: Real>(
+        &self,
+        at: &At<T>,
+        points: usize,
+        x: &[T],
+        f: &mut [T],
+        l0: &mut [T],
+        lf: &mut [T],
+        scratch: &mut [T],
+    ) {
+        if !go_on() {
+            return f.fill(T::of(f64::NAN));
+        }
+        match &*self.way {
+            Way::Traced(model) => model.expansion_points(at, points, x, f, l0, lf, scratch),
+            Way::Called(_) => expansion_by_duals(self, at, points, x, f, l0, lf, scratch),
+        }
+    }
+}
+
+impl Called {
+    fn beside(&self) -> usize {
+        self.controls + self.parameters
+    }
+}

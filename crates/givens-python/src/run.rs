@@ -1,0 +1,150 @@
+//! A method over whole trajectories.
+
+use givens::filter::Gaussian;
+use givens::registry::Choice as Chosen;
+use givens::{Data, Goal, Outcome};
+use numpy::PyReadonlyArrayDyn;
+use pyo3::prelude::*;
+
+use crate::choice::Choice;
+use crate::crowd::{aside, each, threads};
+use crate::errors::Result;
+use crate::estimates::Estimates;
+use crate::failure::noted;
+use crate::model::{Model, Moves};
+use crate::numbers::numbers;
+use crate::rows::{belief, goal, rows, times};
+use crate::watch::{Watched, detached};
+
+type Numbers<'py> = PyReadonlyArrayDyn<'py, f64>;
+
+/// Rows from which a smoother's way back, which no signal ends, may take long.
+const LONG: usize = 20_000;
+
+/// One run, with all that it needs.
+struct Job {
+    model: Model,
+    choice: Chosen,
+    prior: Gaussian,
+    data: Data,
+    goal: Goal,
+    /// Times asked for besides.
+    at: Option<Vec<f64>>,
+}
+
+impl Job {
+    fn new(
+        model: &Model,
+        choice: &Choice,
+        (mean, cov, t0): (&Numbers<'_>, &Numbers<'_>, Option<f64>),
+        (time, z, u): (&Numbers<'_>, &Numbers<'_>, Option<&Numbers<'_>>),
+        (goal, value): (&str, Option<f64>),
+        at: Option<&Numbers<'_>>,
+    ) -> Result<Self> {
+        model.serves(&choice.0)?;
+        let prior = belief(model, mean, cov)?;
+        let data = rows(model, t0, time, z, u)?;
+        let goal = self::goal(goal, value, &numbers(time), data.start())?;
+        let at = at.map(|at| times(at, data.start())).transpose()?;
+        Ok(Self { model: model.clone(), choice: choice.0, prior, data, goal, at })
+    }
+
+    /// Runs on this thread.
+    fn run(&self) -> Outcome {
+        let Self { model, choice, prior, data, goal, at } = self;
+        let (rows, t0, at) = (Watched(data.rows()), data.start(), at.as_deref().unwrap_or_default());
+        let sensing = &model.sensing;
+        match &model.moves {
+            Moves::Discrete(moves) => choice.run(moves, sensing, rows, t0, prior, *goal, at),
+            Moves::Continuous(moves) => choice.run_continuous(moves, sensing, rows, t0, prior, *goal, at),
+        }
+    }
+
+    fn estimates(&self, py: Python<'_>, outcome: Outcome) -> PyResult<Estimates> {
+        Estimates::of(py, outcome, &self.model, &self.choice, self.at.is_some())
+    }
+}
+
+/// Runs a method over the rows of one trajectory; see the stub.
+#[pyfunction]
+#[pyo3(signature = (model, choice, mean, cov, t0, time, z, u=None, goal="filter", goal_value=None, at=None))]
+pub fn run(
+    py: Python<'_>,
+    model: &Model,
+    choice: &Choice,
+    mean: Numbers<'_>,
+    cov: Numbers<'_>,
+    t0: Option<f64>,
+    time: Numbers<'_>,
+    z: Numbers<'_>,
+    u: Option<Numbers<'_>>,
+    goal: &str,
+    goal_value: Option<f64>,
+    at: Option<Numbers<'_>>,
+) -> Result<Estimates> {
+    let data = (&time, &z, u.as_ref());
+    let job = Job::new(model, choice, (&mean, &cov, t0), data, (goal, goal_value), at.as_ref())?;
+    let goes_back = matches!(job.goal, Goal::Interval | Goal::Lag(_));
+    if goes_back && job.data.len() >= LONG && !model.needs_python() {
+        let (job, outcome) = aside(py, move || {
+            let outcome = job.run();
+            (job, outcome)
+        })?;
+        return Ok(job.estimates(py, outcome)?);
+    }
+    let (outcome, raised) = detached(py, || job.run());
+    if let Some(raised) = raised {
+        return Err(noted(py, raised, outcome.failure.as_ref()).into());
+    }
+    Ok(job.estimates(py, outcome)?)
+}
+
+/// Model, choice, mean, cov, t0, time, z, u, at.
+type Track<'py> = (
+    PyRef<'py, Model>,
+    PyRef<'py, Choice>,
+    Numbers<'py>,
+    Numbers<'py>,
+    Option<f64>,
+    Numbers<'py>,
+    Numbers<'py>,
+    Option<Numbers<'py>>,
+    Option<Numbers<'py>>,
+);
+
+/// Runs several trajectories on threads; see the stub.
+#[pyfunction]
+#[pyo3(signature = (tracks, goal="filter", goal_value=None, threads=None))]
+pub fn run_batch<'py>(
+    py: Python<'py>,
+    tracks: Vec<Track<'py>>,
+    goal: &str,
+    goal_value: Option<f64>,
+    threads: Option<usize>,
+) -> Result<Vec<Estimates>> {
+    let of = |(k, track): (usize, &Track<'py>)| {
+        let (model, choice, mean, cov, t0, time, z, u, at) = track;
+        let data = (time, z, u.as_ref());
+        let job = Job::new(model, choice, (mean, cov, *t0), data, (goal, goal_value), at.as_ref());
+        job.map_err(|refusal| in_track(py, k, refusal.into()))
+    };
+    let jobs = tracks.iter().enumerate().map(of).collect::<PyResult<Vec<Job>>>()?;
+    drop(tracks);
+    // one thread has the interpreter at a time: several would only wait for each other
+    let alone = jobs.iter().any(|job| job.model.needs_python());
+    let threads = self::threads(threads)?;
+    let outcomes = each(py, jobs.len(), if alone { 1 } else { threads }, |k| jobs[k].run());
+    let outcomes = outcomes.map_err(|(k, raised)| match k {
+        Some(k) => in_track(py, k, raised),
+        None => raised,
+    })?;
+    let all = jobs.iter().zip(outcomes).map(|(job, outcome)| job.estimates(py, outcome));
+    Ok(all.collect::<PyResult<Vec<_>>>()?)
+}
+
+/// Notes on an exception which track it is about.
+fn in_track(py: Python<'_>, track: usize, error: PyErr) -> PyErr {
+    // an exception that takes no note is raised as it is
+    let _ = error.add_note(py, format!("in track {track}"));
+    error
+}

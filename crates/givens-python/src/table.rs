@@ -1,0 +1,55 @@
+//! Tables of measurements, as arrays.
+
+use givens_io::{Track, read_tracks as read};
+use numpy::PyArray1;
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyList};
+
+use crate::errors::{Input, Result};
+use crate::model::Model;
+use crate::numbers::frozen;
+
+/// Reads the measurements for a model that is from a file; see the stub.
+#[pyfunction]
+pub fn read_tracks<'py>(py: Python<'py>, model: &Model, path: &str) -> Result<Bound<'py, PyDict>> {
+    let file = model.file()?;
+    let tracks = py.detach(|| read(path, file))?;
+    let all = PyDict::new(py);
+    let each = PyList::empty(py);
+    for track in &tracks.tracks {
+        each.append(arrays(py, model, track)?)?;
+    }
+    all.set_item("tracks", each)?;
+    all.set_item("ignored", tracks.ignored)?;
+    all.set_item("has_track_id", tracks.has_track_id)?;
+    all.set_item("has_sensor", tracks.has_sensor)?;
+    Ok(all)
+}
+
+/// One track, and where it begins.
+fn arrays<'py>(py: Python<'py>, model: &Model, track: &Track) -> Result<Bound<'py, PyDict>> {
+    let (k, d, c) = (track.rows.len(), model.measures(), model.controls());
+    let begun = model.file()?.begin(track).map_err(|error| {
+        let at = error.line.map_or_else(String::new, |line| format!("line {line}: "));
+        let of = track.id.as_ref().map_or_else(String::new, |id| format!("track {id}: "));
+        Input::new("data", format!("{at}{of}{}", error.message)).help(error.help)
+    })?;
+    let n = model.states();
+    let all = PyDict::new(py);
+    let gather = |of: fn(&givens_io::Row) -> &[f64]| track.rows.iter().flat_map(of).copied().collect();
+    all.set_item("id", &track.id)?;
+    all.set_item("origin", track.origin.map(|_| track.time_text(0.0)))?;
+    all.set_item("time", frozen(py, track.rows.iter().map(|row| row.time).collect(), &[k])?)?;
+    all.set_item("z", frozen(py, gather(|row| &row.z), &[k, d])?)?;
+    all.set_item("u", frozen(py, gather(|row| &row.u), &[k, c])?)?;
+    let sensors: Vec<i64> = track.rows.iter().map(|row| row.sensor.map_or(-1, |i| i as i64)).collect();
+    all.set_item("sensor", PyArray1::from_vec(py, sensors))?;
+    let lines: Vec<i64> = track.rows.iter().map(|row| row.line as i64).collect();
+    all.set_item("line", PyArray1::from_vec(py, lines))?;
+    all.set_item("t0", begun.time)?;
+    all.set_item("mean", frozen(py, begun.prior.mean().to_vec(), &[n])?)?;
+    all.set_item("cov", frozen(py, begun.prior.cov().to_vec(), &[n, n])?)?;
+    all.set_item("row", begun.row)?;
+    all.set_item("started", begun.started)?;
+    Ok(all)
+}

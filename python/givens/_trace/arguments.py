@@ -6,7 +6,6 @@ import functools
 import inspect
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from difflib import get_close_matches
 from typing import Any
 
 import numpy as np
@@ -15,7 +14,7 @@ import numpy.typing as npt
 from givens._trace.place import of_function
 from givens.errors import InputError
 
-__all__ = ["Arguments", "parameter_value", "read_arguments"]
+__all__ = ["Arguments", "parameter_value", "read_arguments", "second_position"]
 
 _POSITIONAL = (inspect.Parameter.POSITIONAL_ONLY, inspect.Parameter.POSITIONAL_OR_KEYWORD)
 
@@ -139,7 +138,8 @@ def _listed(names: Sequence[str]) -> str:
     return f"({', '.join(names)})" if names else "no argument"
 
 
-def nearest(name: str, among: Sequence[str]) -> str:
-    """`; did you mean …?`, if there is a name like it."""
-    close = get_close_matches(name, among, 1)
-    return f"; did you mean {close[0]!r}?" if close else ""
+def second_position(argument: str, function: Callable[..., Any]) -> str | None:
+    """The name of the second argument that has no default, if there is one."""
+    parameters = [p for p in _signature(argument, function).parameters.values() if p.kind in _POSITIONAL]
+    free = [p.name for p in parameters if p.default is p.empty]
+    return free[1] if len(free) > 1 else None

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from random import Random
 from typing import Any
 
 import numpy as np
@@ -13,7 +12,7 @@ import numpy.typing as npt
 from givens._native import Graph
 from givens._trace.place import of_function
 from givens._trace.refuse import refuse
-from givens._trace.tracer import Sizes, Traced
+from givens._trace.traced import Sizes, Traced
 from givens.errors import GivensError, TraceError
 
 __all__ = ["Point", "compare"]
@@ -51,6 +50,8 @@ def _digits(value: Any) -> str:
 
 def _points(sizes: Sizes, values: Array, near: Array | None) -> Iterator[Point]:
     """States of several sizes, of either sign and of positive sign; parameters at and around their values."""
+    from random import Random
+
     # Python's own generator: NumPy's takes longer to import than all of this
     random = Random(20090513)
 

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import linecache
+import os
 import sys
 from dataclasses import dataclass
-from pathlib import Path
 from types import CodeType, FrameType, TracebackType
 
 import numpy as np
 
 __all__ = ["Place", "here", "of_function", "of_traceback"]
 
-_OURS = (str(Path(__file__).parent), str(Path(np.__file__).parent))
+_OURS = (os.path.dirname(__file__), os.path.dirname(np.__file__))
 
 
 @dataclass(frozen=True)
@@ -63,10 +63,8 @@ def of_function(function: object) -> Place:
 
 def _short(file: str) -> str:
     """As seen from the working folder, if the file lies in it."""
-    try:
-        return str(Path(file).relative_to(Path.cwd()))
-    except (ValueError, OSError):
-        return file
+    folder = os.path.join(os.getcwd(), "")
+    return file.removeprefix(folder)
 
 
 def _place(code: CodeType, line: int) -> Place:

@@ -88,8 +88,8 @@ class Tape:
             numbers[k] = kept.put(*_renumbered(self.instructions[k], numbers.__getitem__))
         return kept, [numbers[k] for k in roots]
 
-    def lay_into(self, graph: Graph, roots: Sequence[int], *, parameters: int = 0) -> list[int]:
-        """Writes what `roots` need into a graph, its parameters counted from `parameters`; the nodes of `roots`."""
+    def lay_into(self, graph: Graph, roots: Sequence[int], parameters: Sequence[int] | None = None) -> list[int]:
+        """Writes what `roots` need into a graph, parameter i as `parameters[i]`; the nodes of `roots`."""
         nodes: dict[int, int] = {}
         for k in self.reachable(roots):
             nodes[k] = _lay(graph, self.instructions[k], nodes, parameters)
@@ -109,7 +109,7 @@ def _renumbered(instruction: Instruction, new: Callable[[int], int]) -> Instruct
     return (instruction[0], *map(new, operands), *instruction[1 + len(operands) :])
 
 
-def _lay(graph: Graph, instruction: Instruction, nodes: dict[int, int], parameters: int) -> int:
+def _lay(graph: Graph, instruction: Instruction, nodes: dict[int, int], parameters: Sequence[int] | None) -> int:
     op = str(instruction[0])
     match instruction[1:]:
         case (str(value),):
@@ -121,7 +121,7 @@ def _lay(graph: Graph, instruction: Instruction, nodes: dict[int, int], paramete
         case (int(index),) if op == "control":
             return graph.control(index)
         case (int(index),) if op == "parameter":
-            return graph.parameter(parameters + index)
+            return graph.parameter(index if parameters is None else parameters[index])
         case (int(a),):
             return graph.unary(op, nodes[a])
         case (int(a), int(exponent)) if op == "power":

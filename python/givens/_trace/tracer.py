@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -14,33 +13,11 @@ from givens._trace.place import of_function, of_traceback
 from givens._trace.refuse import failures, refuse
 from givens._trace.symbol import Sym
 from givens._trace.tape import Tape
+from givens._trace.traced import Sizes, Traced
 from givens._trace.transplant import transplanted
 from givens.errors import GivensError, TraceError
 
-__all__ = ["Sizes", "Traced", "trace"]
-
-
-@dataclass(frozen=True)
-class Sizes:
-    """Lengths of the state and of the controls."""
-
-    states: int
-    controls: int
-
-
-@dataclass(frozen=True)
-class Traced:
-    """What a function computes: its tape, and the instructions that give its results."""
-
-    tape: Tape
-    nodes: tuple[int, ...]
-    shape: tuple[int, ...]
-    arguments: Arguments
-
-    def pruned(self) -> Traced:
-        """Without what does not matter for the results."""
-        tape, nodes = self.tape.pruned(self.nodes)
-        return Traced(tape, tuple(nodes), self.shape, self.arguments)
+__all__ = ["trace"]
 
 
 def trace(function: Callable[..., Any], arguments: Arguments, sizes: Sizes, names: tuple[str, ...] = ()) -> Traced:

@@ -1,0 +1,147 @@
+"""One function of a model, whatever it was given as: numbers, a traced function, or one that is called."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from givens._arrays import Array
+from givens._called import Called, called
+from givens._native import Function, Graph
+from givens._symbolic import is_symbolic, of_sympy
+from givens._trace.arguments import Arguments, read_arguments
+from givens._trace.place import of_function
+from givens._trace.tape import Tape
+from givens._trace.traced import Sizes, Traced
+from givens.errors import InputError, TraceError
+
+__all__ = ["Part", "Request", "is_function"]
+
+
+@dataclass(frozen=True)
+class Request:
+    """How a part of a model is to be read."""
+
+    #: The argument that brings it.
+    argument: str
+    #: What stands at the positions of its call, and what may.
+    required: tuple[str, ...]
+    optional: tuple[str, ...] = ()
+    #: Names of its results, where each has one.
+    names: tuple[str, ...] = ()
+    #: Names of states and controls, by which a SymPy expression knows them.
+    states: tuple[str, ...] = ()
+    controls: tuple[str, ...] = ()
+    #: Values for its parameters.
+    parameters: Mapping[str, object] = field(default_factory=dict)
+    trace: bool = True
+    may_call: bool = True
+    check_at: Array | None = None
+
+    @property
+    def sizes(self) -> Sizes:
+        """Lengths of state and controls."""
+        return Sizes(len(self.states), len(self.controls))
+
+    def read(self, given: Any) -> Part:
+        """Makes the part."""
+        if is_symbolic(given):
+            given = of_sympy(self.argument, given, self.required, self.states, self.controls, self.parameters)
+        if not is_function(given):
+            return Part(self.argument, _numbers(self.argument, given))
+        if self.may_call and (hasattr(given, "address") or not self.trace):
+            return Part(self.argument, called=called(self, given))
+        # what knows symbols is a third of the package, and a model file needs none of it
+        from givens._trace.check import compare
+        from givens._trace.tracer import trace
+
+        arguments = read_arguments(self.argument, given, self.required, self.optional, self.parameters)
+        try:
+            traced = trace(given, arguments, self.sizes, self.names)
+            compare(given, traced, self.sizes, self.names, self.check_at)
+        except TraceError as error:
+            error.argument = self.argument
+            if not self.may_call and error.remedy is not None:
+                error.remedy = error.remedy.replace(", or pass trace=False", "").replace("; or pass trace=False", "")
+            raise
+        return Part(self.argument, traced, origin=of_function(given).function)
+
+
+@dataclass(frozen=True)
+class Part:
+    """A function of a model."""
+
+    argument: str
+    traced: Traced | None = None
+    called: Called | None = None
+    origin: str | None = None
+
+    @property
+    def shape(self) -> tuple[int, ...] | None:
+        """Of its result; None if that is not known."""
+        return self.traced.shape if self.traced is not None else self.called.shape if self.called is not None else None
+
+    @property
+    def parameters(self) -> dict[str, Array]:
+        """By name, with the values that they had when the part was made."""
+        if self.traced is not None:
+            return self.traced.arguments.parameters
+        return self.called.parameters if self.called is not None else {}
+
+    @property
+    def is_number(self) -> bool:
+        """Whether it is the same everywhere."""
+        return self.traced is not None and not self.traced.tape.inputs(self.traced.nodes)
+
+    def value(self) -> Array:
+        """Its numbers, if it is the same everywhere."""
+        assert self.traced is not None
+        empty, graph = np.empty(0), Graph()
+        nodes = self.traced.tape.lay_into(graph, self.traced.nodes)
+        return graph.evaluate(nodes, empty, 0.0, 0.0, empty, empty).reshape(self.traced.shape)
+
+    @property
+    def nodes(self) -> tuple[int, ...]:
+        """The instructions of its results; none for a function that is called."""
+        return self.traced.nodes if self.traced is not None else ()
+
+    def constant(self, value: float) -> int:
+        """The instruction of a number on its tape."""
+        assert self.traced is not None
+        return self.traced.tape.constant(value)
+
+    def constant_of(self, node: int) -> float | None:
+        """The number that an instruction always gives, or None."""
+        return self.traced.tape.constant_value(node) if self.traced is not None else None
+
+    def reshaped(self, nodes: Sequence[int], shape: tuple[int, ...]) -> Part:
+        """With other results, which are instructions of the same tape."""
+        assert self.traced is not None
+        traced = Traced(self.traced.tape, tuple(nodes), shape, self.traced.arguments)
+        return Part(self.argument, traced, origin=self.origin)
+
+    def into(self, graph: Graph, places: Mapping[str, slice]) -> list[int] | Function:
+        """As the native half takes it: nodes of the graph, or a function; parameters stand in these places."""
+        if self.called is not None:
+            return self.called.native(places)
+        assert self.traced is not None
+        flat = [k for name in self.parameters for k in range(places[name].start, places[name].stop)]
+        return self.traced.tape.lay_into(graph, self.traced.nodes, flat)
+
+
+def _numbers(argument: str, given: Any) -> Traced:
+    from givens._arrays import numbers
+
+    array = numbers(argument, given)
+    if not np.isfinite(array).all():
+        raise InputError(f"`{argument}` is not finite: {array[~np.isfinite(array)][0]}", argument=argument)
+    tape = Tape()
+    return Traced(tape, tuple(tape.constant(value) for value in array.ravel()), array.shape, Arguments((), {}))
+
+
+def is_function(given: object) -> bool:
+    """Whether an argument is a function, by itself or by its address."""
+    return callable(given) or hasattr(given, "address")

@@ -1,0 +1,125 @@
+"""Measurements, controls and noise of one track, as the arrays that run."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from givens._arrays import Array, numbers, shape_error
+from givens._join import Joined, named_sensor
+from givens._names import known_name, listed
+from givens.errors import InputError
+
+__all__ = ["controls_of", "measured", "noise_shapes", "with_noise"]
+
+
+def measured(joined: Joined, z: Any, rows: int) -> Array:
+    """Measurements (rows, d), NaN where one is missing; of a table by sensor, those left out are missing."""
+    d = len(joined.measures)
+    if isinstance(z, Mapping):
+        stacked = np.full((rows, d), np.nan)
+        for name, values in z.items():
+            place = named_sensor(joined, "z", name)
+            columns = joined.measures[place]
+            stacked[:, place] = _rows(f"z[{name!r}]", values, rows, columns)
+        return stacked
+    return _rows("z", z, rows, joined.measures)
+
+
+def _rows(argument: str, values: Any, rows: int, columns: tuple[str, ...]) -> Array:
+    array = numbers(argument, values)
+    d = len(columns)
+    if array.ndim == 1 and d == 1:
+        array = array.reshape(-1, 1)
+    if array.shape == (rows, d):
+        return np.ascontiguousarray(array)
+    remedy = f"one row for each time, one column for each of {', '.join(columns)}"
+    if array.shape == (d,) and rows != d:
+        remedy = f"one measurement is a row of its own: {argument}=[z], t=[t]"
+    elif array.shape == (d, rows):
+        remedy = f"rows are times: {argument}={argument}.T"
+    elif array.ndim == 3 and array.shape[2] == 1:
+        remedy = f"a measurement is a vector, not a column: {argument}[..., 0]"
+    raise shape_error(argument, array.shape, f"({rows}, {d})", remedy)
+
+
+def controls_of(joined: Joined, u: Any, rows: int) -> Array | None:
+    """Controls (rows, c), each holding from its row to the next; None for a model without any."""
+    names = joined.controls
+    if not names:
+        if u is None:
+            return None
+        raise InputError(
+            "`u` is given, but the model has no controls", argument="u", remedy='name them: controls=["thrust"]'
+        )
+    if u is None:
+        raise InputError(f"`u` is missing: the model has the controls {listed(names)}", argument="u")
+    if isinstance(u, Mapping):
+        for name in u:
+            known_name("u", name, names, "control")
+        missing = [name for name in names if name not in u]
+        if missing:
+            raise InputError(f"`u` has no entry `{missing[0]}`", argument="u", component=missing[0])
+        return np.stack([np.broadcast_to(numbers(f"u[{name!r}]", u[name]), (rows,)) for name in names], axis=1)
+    array = numbers("u", u)
+    if array.ndim == 1 and len(names) == 1:
+        array = array.reshape(-1, 1)
+    if array.shape != (rows, len(names)):
+        wanted = f"({rows}, {len(names)}): one column for each of {', '.join(names)}"
+        raise shape_error("u", array.shape, wanted, "constant controls: u={name: number}")
+    return array
+
+
+def noise_shapes(noise: Any, sensors: Mapping[str, int]) -> dict[str, tuple[int, ...]]:
+    """For each sensor in `noise` the shape of a row: (d,) of standard deviations, (d, d) of covariances."""
+    if noise is None:
+        return {}
+    if not isinstance(noise, Mapping):
+        if len(sensors) > 1:
+            raise InputError(
+                f"`noise` does not say for which sensor it is: there are {listed(sensors)}",
+                argument="noise",
+                remedy="write noise={name: array}",
+            )
+        noise = {next(iter(sensors)): noise}
+    shapes: dict[str, tuple[int, ...]] = {}
+    for name, values in noise.items():
+        known_name("noise", name, tuple(sensors), "sensor")
+        d, array = sensors[name], numbers(f"noise[{name!r}]", values)
+        wide = array.ndim == 3
+        shapes[name] = (d, d) if wide else (d,)
+    return shapes
+
+
+def with_noise(joined: Joined, u: Array | None, noise: Any, z: Array) -> Array | None:
+    """The controls with the noise of the rows behind them."""
+    if not joined.noise:
+        return u
+    table = noise if isinstance(noise, Mapping) else {next(iter(joined.noise)): noise}
+    rows = len(z)
+    columns = [np.empty((rows, 0)) if u is None else u]
+    for name, shape in joined.noise.items():
+        argument = f"noise[{name!r}]"
+        array = numbers(argument, table[name])
+        array = array.reshape(-1, 1) if array.ndim == 1 and shape == (1,) else array
+        if array.shape != (rows, *shape):
+            d = shape[0]
+            raise shape_error(argument, array.shape, f"({rows}, {d}) of standard deviations or ({rows}, {d}, {d})")
+        flat = array.reshape(rows, -1).copy()
+        absent = np.isnan(z[:, joined.sensors[name]]).all(axis=1)
+        # of a row in which the sensor is missing, nobody reads it
+        flat[absent] = np.eye(shape[0]).ravel() if len(shape) == 2 else 1.0
+        wrong = ~np.isfinite(flat) | ((flat < 0) if len(shape) == 1 else False)
+        if wrong.any():
+            row, at = map(int, np.argwhere(wrong)[0])
+            raise InputError(
+                f"`{argument}` is {flat[row, at]} in row {row}",
+                argument="noise",
+                row=row,
+                component=name,
+                remedy="standard deviations are finite, from 0 up" if len(shape) == 1 else "give finite numbers",
+            )
+        columns.append(flat)
+    return np.concatenate(columns, axis=1)

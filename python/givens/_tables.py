@@ -1,0 +1,128 @@
+"""Tables of measurements: of pandas, polars, pyarrow and duckdb, and dicts of arrays."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from givens._join import Joined
+from givens._names import known_name, listed
+from givens.errors import InputError
+
+__all__ = ["is_table", "rows_by_track"]
+
+_TIME = ("time", "t")
+_SENSOR = "sensor"
+_TRACK = "track_id"
+
+
+def is_table(value: object) -> bool:
+    """Whether this is a table with named columns."""
+    if isinstance(value, Mapping):
+        return any(name in value for name in _TIME)
+    frame = hasattr(value, "columns") and hasattr(value, "__getitem__")
+    return frame or hasattr(value, "column_names") or hasattr(value, "fetchnumpy")
+
+
+def _columns(table: Any) -> dict[str, Any]:
+    if hasattr(table, "fetchnumpy"):
+        table = table.fetchnumpy()
+    names = table if isinstance(table, Mapping) else getattr(table, "column_names", None) or table.columns
+    return {str(name): table[name] for name in names}
+
+
+def _array(column: Any) -> np.ndarray[Any, Any]:
+    return np.asarray(column.to_numpy() if hasattr(column, "to_numpy") else column)
+
+
+def _floats(name: str, column: Any, rows: int) -> np.ndarray[Any, np.dtype[np.float64]]:
+    """A column of numbers; what is null or masked is NaN."""
+    if isinstance(column, np.ma.MaskedArray):
+        column = column.filled(np.nan)
+    array = _array(column)
+    if array.shape != (rows,):
+        raise InputError(f"the column `{name}` has shape {array.shape}, not ({rows},)", argument="z", component=name)
+    if array.dtype == object:
+        # each library has a null of its own, which compares equal to nothing or is None
+        array = np.array(
+            [np.nan if value is None or value is not value or str(value) == "<NA>" else value for value in array]
+        )
+    try:
+        return array.astype(np.float64)
+    except (TypeError, ValueError):
+        raise InputError(
+            f"the column `{name}` does not hold numbers but {array.dtype}", argument="z", component=name
+        ) from None
+
+
+def rows_by_track(joined: Joined, table: Any) -> list[dict[str, Any]]:
+    """The rows of each track, in the order in which tracks appear: `id`, `time`, `z`, `u`."""
+    columns = _columns(table)
+    time = next((columns[name] for name in _TIME if name in columns), None)
+    if time is None:
+        raise InputError(
+            f"the table has no column `time`: it has {listed(columns)}",
+            argument="t",
+            remedy="name the column of times `time`",
+        )
+    times = _array(time)
+    rows = len(times)
+    z = _measures(joined, columns, rows)
+    u = _controls(joined, columns, rows)
+    if _TRACK not in columns:
+        return [{"id": None, "time": times, "z": z, "u": u}]
+    found: dict[Any, list[int]] = {}
+    for row, track in enumerate(_array(columns[_TRACK]).tolist()):
+        found.setdefault(track, []).append(row)
+    return [
+        {"id": track, "time": times[of], "z": z[of], "u": None if u is None else u[of]} for track, of in found.items()
+    ]
+
+
+def _measures(joined: Joined, columns: Mapping[str, Any], rows: int) -> np.ndarray[Any, np.dtype[np.float64]]:
+    z = np.full((rows, len(joined.measures)), np.nan)
+    absent = []
+    for sensor, place in joined.sensors.items():
+        names = joined.measures[place]
+        missing = [name for name in names if name not in columns]
+        absent += missing
+        if missing and len(missing) < len(names):
+            from difflib import get_close_matches
+
+            close = get_close_matches(missing[0], list(columns), 1)
+            raise InputError(
+                f"the table has no column `{missing[0]}` of the sensor `{sensor}`",
+                argument="z",
+                component=missing[0],
+                remedy=f"did you mean `{close[0]}`?" if close else "a sensor may be absent as a whole, not in part",
+            )
+        if not missing:
+            z[:, place] = np.stack([_floats(name, columns[name], rows) for name in names], axis=1)
+    if len(absent) == len(joined.measures):
+        raise InputError(
+            f"the table has none of the measures {listed(joined.measures)}: it has {listed(columns)}",
+            argument="z",
+            remedy="name the columns as the measures are named",
+        )
+    if _SENSOR in columns:
+        of = [None if name is None or name != name else str(name) for name in _array(columns[_SENSOR]).tolist()]
+        for sensor in {name for name in of if name}:
+            known_name("sensor", sensor, tuple(joined.sensors), "sensor")
+        for sensor, place in joined.sensors.items():
+            others = np.array([name is not None and name != sensor for name in of])
+            z[others, place] = np.nan
+    return z
+
+
+def _controls(joined: Joined, columns: Mapping[str, Any], rows: int) -> np.ndarray[Any, np.dtype[np.float64]] | None:
+    found = []
+    for name in joined.controls:
+        column = f"u_{name}" if f"u_{name}" in columns else name
+        if column not in columns:
+            raise InputError(
+                f"the table has no column `u_{name}` for the control `{name}`", argument="u", component=name
+            )
+        found.append(_floats(column, columns[column], rows))
+    return np.stack(found, axis=1) if found else None

@@ -1,0 +1,99 @@
+"""Whether a filter is as good as it says."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from givens import _native
+from givens._arrays import Array
+
+if TYPE_CHECKING:
+    from givens.estimates import Estimates
+
+__all__ = ["Consistency", "consistency_of"]
+
+
+@dataclass(frozen=True)
+class Consistency:
+    """The size of the innovations against what the filter expects, and whether they follow from each other.
+
+    Attributes
+    ----------
+    verdict : str
+        ``"consistent"``, ``"overconfident"``, ``"underconfident"``, or ``"unknown"`` where nothing was measured.
+    ratio : float
+        Mean NIS for each degree of freedom: 1 of a filter that is right.
+    band : (float, float)
+        The central 95 % of what a filter that is right has.
+    dof : int
+        Degrees of freedom: measures of all rows together.
+    correlation : float
+        Of normalised innovations with those of the row before: 0 of a filter that is right.
+    correlation_bound : float
+        Beyond it in 5 % of cases.
+    """
+
+    verdict: str
+    ratio: float
+    band: tuple[float, float]
+    dof: int
+    text: str
+    correlation: float
+    correlation_bound: float
+
+    @property
+    def is_white(self) -> bool:
+        """Whether innovations are unrelated to those before, as far as one can tell."""
+        return not abs(self.correlation) > self.correlation_bound
+
+    def __str__(self) -> str:
+        if not np.isfinite(self.correlation):
+            return self.text
+        words = "unrelated to those before" if self.is_white else "related to those before: the model misses something"
+        return (
+            f"{self.text}; innovations {words} (correlation {self.correlation:.3f}, bound {self.correlation_bound:.3f})"
+        )
+
+    def _repr_html_(self) -> str:
+        from html import escape
+
+        return f"<p>{escape(str(self))}</p>"
+
+
+def consistency_of(runs: Iterable[Estimates]) -> Consistency:
+    """Of several runs together."""
+    runs = list(runs)
+    nis = np.concatenate([np.empty(0), *(np.asarray(one.nis) for one in runs)])
+    dof = np.concatenate([np.empty(0, dtype=np.int64), *(np.asarray(one.nis_dof) for one in runs)])
+    found = _native.consistency(nis, dof)
+    correlation, pairs = _lagged(runs)
+    bound = 1.959964 / np.sqrt(pairs) if pairs else float("nan")
+    low, high = found["band"]
+    return Consistency(
+        found["verdict"], found["ratio"], (low, high), found["dof"], found["text"], correlation, float(bound)
+    )
+
+
+def _lagged(runs: Iterable[Estimates]) -> tuple[float, int]:
+    """The correlation of whitened innovations with those of the row before, component by component."""
+    product, square, pairs = 0.0, 0.0, 0
+    for one in runs:
+        white = _whitened(one)
+        now, before = white[1:], white[:-1]
+        both = np.isfinite(now) & np.isfinite(before)
+        product += float(np.sum(now[both] * before[both]))
+        square += float(np.sum(now[both] ** 2 + before[both] ** 2)) / 2
+        pairs += int(both.sum())
+    return (product / square if square > 0 else float("nan")), pairs
+
+
+def _whitened(one: Estimates) -> Array:
+    """Innovations divided by their standard deviations."""
+    variance = np.diagonal(one.innovation_cov, axis1=1, axis2=2)
+    with np.errstate(all="ignore"):
+        scaled: Array = one.innovation / np.sqrt(variance)
+    return scaled

@@ -1,0 +1,272 @@
+"""What a run has learnt, row by row."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from givens import _native
+from givens._arrays import Array, frozen
+from givens._clock import Clock
+from givens._factor import lower_factor
+from givens._plan import Track
+from givens.consistency import Consistency, consistency_of
+from givens.errors import InputError, StepError
+
+__all__ = ["Estimates", "Goal", "step_error"]
+
+_ROWS = ("mean", "cov", "predicted_mean", "predicted_cov", "filtered_mean", "filtered_cov")
+_MEASURED = ("innovation", "innovation_cov", "nis")
+
+
+@dataclass(frozen=True)
+class Goal:
+    """What a run is after: filter, interval, lag or point."""
+
+    word: Any
+    value: float | None = None
+
+
+class Estimates:
+    """The estimates of one trajectory: one row for each row of the data.
+
+    The arrays cannot be written to. n states, d measures of all sensors together.
+
+    Attributes
+    ----------
+    time : ndarray, shape (rows,)
+        As given: numbers, or dates.
+    seconds : ndarray, shape (rows,)
+        The same as numbers; of dates, since `t0` or the first row.
+    mean, cov : ndarray, shapes (rows, n) and (rows, n, n)
+        The estimates: filtered ones of `filter`, smoothed ones of `smooth`.
+    filtered_mean, filtered_cov : ndarray
+        Given the measurements up to the row.
+    predicted_mean, predicted_cov : ndarray
+        Given the measurements before the row.
+    innovation, innovation_cov : ndarray, shapes (rows, d) and (rows, d, d)
+        Measurement less prediction, and its covariance; NaN where a component was missing.
+    nis : ndarray, shape (rows,)
+        Innovations squared and divided by their covariance; NaN where nothing was measured.
+    nis_dof : ndarray of int, shape (rows,)
+        Measures that were there.
+    log_likelihood : ndarray, shape (rows,)
+        Of each row's own measurement, given those before; 0 where nothing was measured.
+    state, measures : tuple of str
+        Names.
+    method : str
+        The method, by its name in the registry.
+    is_smoothed : bool
+        Whether `mean` and `cov` are smoothed ones.
+    failed : StepError or None
+        Why the rows end before those of the data.
+
+    Examples
+    --------
+    >>> import givens as gv
+    >>> model = gv.Transition(lambda t, dt, x: x, noise_cov=[[0.1]], state=["x"])
+    >>> sensor = gv.Sensor(lambda t, x: x, measures=["x"], std=[1.0])
+    >>> est = gv.filter(model, sensor, [0, 1, 2], [[0.1], [0.3], [0.2]], prior=gv.Gaussian([0], std=[1]))
+    >>> est
+    Estimates(3 rows, state=[x], method=sr-ckf, log-likelihood -3.5558)
+    >>> est.std.shape
+    (3, 1)
+    """
+
+    time: np.ndarray[Any, Any]
+    seconds: Array
+    mean: Array
+    cov: Array
+    filtered_mean: Array
+    filtered_cov: Array
+    predicted_mean: Array
+    predicted_cov: Array
+    innovation: Array
+    innovation_cov: Array
+    nis: Array
+    nis_dof: npt.NDArray[np.int64]
+    log_likelihood: Array
+    state: tuple[str, ...]
+    measures: tuple[str, ...]
+    method: str
+    is_smoothed: bool
+    failed: StepError | None
+    track_id: Any
+
+    def __init__(self) -> None:
+        raise TypeError("Estimates come from givens.filter and givens.smooth")
+
+    @classmethod
+    def _of(
+        cls,
+        track: Track,
+        native: _native.Estimates,
+        goal: Goal,
+        at: Array | None = None,
+        failed: StepError | None = None,
+    ) -> Estimates:
+        found = native.at if at is not None and native.at is not None else native
+        self = object.__new__(cls)
+        before = track.before if at is None and goal.word != "point" else 0
+        fields: dict[str, Any] = {name: _after(before, getattr(found, name)) for name in (*_ROWS, *_MEASURED)}
+        fields["log_likelihood"] = _after(before, found.log_likelihood, 0.0)
+        fields["nis_dof"] = _after(before, found.nis_dof, 0)
+        seconds = frozen(np.concatenate([track.time[:before], found.time])) if before else found.time
+        fields |= {"seconds": seconds, "time": track.clock.shown(seconds), "is_smoothed": found.smoothed}
+        fields |= {"state": track.joined.states, "measures": track.joined.measures, "method": track.choice.name}
+        fields |= {"failed": failed, "track_id": track.id, "_track": track, "_goal": goal}
+        self.__dict__.update(fields)
+        return self
+
+    def __setattr__(self, name: str, value: object) -> None:
+        raise AttributeError("Estimates cannot be changed")
+
+    def __len__(self) -> int:
+        return len(self.seconds)
+
+    @property
+    def std(self) -> Array:
+        """Standard deviations of the states, shape (rows, n)."""
+        return frozen(np.sqrt(np.maximum(np.diagonal(self.cov, axis1=1, axis2=2), 0.0)))
+
+    @cached_property
+    def factor(self) -> Array:
+        """Lower triangular roots of `cov`, shape (rows, n, n), with diagonals from zero up."""
+        return frozen(lower_factor(self.cov)[0])
+
+    @property
+    def total_log_likelihood(self) -> float:
+        """The log-likelihood of all measurements together."""
+        return float(np.sum(self.log_likelihood))
+
+    @property
+    def _clock(self) -> Clock:
+        track: Track = self.__dict__["_track"]
+        return track.clock
+
+    def at(self, times: Any) -> Estimates:
+        """The estimates at other times, in order: predictions between the rows, or smoothed states.
+
+        The run is done again; the other estimates do not change by being asked.
+
+        Parameters
+        ----------
+        times : array_like
+            From the time of the prior on; dates if the data has dates.
+        """
+        track: Track = self.__dict__["_track"]
+        goal: Goal = self.__dict__["_goal"]
+        wanted = np.atleast_1d(self._clock.seconds("at", times))
+        native = track.run(goal.word, goal.value, wanted)
+        error = step_error(track, native, goal)
+        if error is not None:
+            raise error
+        return Estimates._of(track, native, goal, wanted)
+
+    def sample(self, n: int, *, seed: int) -> Array:
+        """Draws states from the estimates, each row by itself.
+
+        Rows of one draw are independent: together they are no path of the model.
+
+        Parameters
+        ----------
+        n : int
+            How many.
+        seed : int
+            Equal seeds give equal draws.
+
+        Returns
+        -------
+        ndarray, shape (n, rows, states)
+        """
+        if n < 0:
+            raise InputError(f"`n` is {n}", argument="n", remedy="a number of draws is from 0 up")
+        normal = np.random.default_rng(seed).standard_normal((n, *self.mean.shape))
+        drawn: Array = self.mean + np.einsum("kij,skj->ski", self.factor, normal)
+        return drawn
+
+    def consistency(self) -> Consistency:
+        """Whether the innovations are as large as the filter says, and unrelated to each other."""
+        return consistency_of([self])
+
+    def to_dict(self) -> dict[str, Any]:
+        """All arrays by name."""
+        names = ("time", *_ROWS, "std", *_MEASURED, "nis_dof", "log_likelihood")
+        return {name: getattr(self, name) for name in names}
+
+    def to_pandas(self) -> Any:
+        """A table with the columns of the command's CSV, indexed by time."""
+        from givens._export import to_pandas
+
+        return to_pandas(self)
+
+    def to_polars(self) -> Any:
+        """A table with the columns of the command's CSV."""
+        from givens._export import to_polars
+
+        return to_polars(self)
+
+    def to_xarray(self) -> Any:
+        """A data set with the dimensions time, state, state2, measure, measure2."""
+        from givens._export import to_xarray
+
+        return to_xarray(self)
+
+    def plot(self, *, plane: tuple[str, str] | None = None, truth: npt.ArrayLike | None = None) -> Any:
+        """Draws the states with bands of two standard deviations, and NIS; with `plane`, the track as well.
+
+        Parameters
+        ----------
+        plane : (str, str), optional
+            Two states that are coordinates of a plane.
+        truth : array_like, shape (rows, n), optional
+            True states, drawn beside the estimates.
+        """
+        from givens._plot import plot
+
+        return plot(self, plane, truth)
+
+    def __repr__(self) -> str:
+        word = ", smoothed" if self.is_smoothed else ""
+        end = f", failed at row {self.failed.row}" if self.failed is not None else ""
+        return (
+            f"Estimates({len(self)} rows, state=[{', '.join(self.state)}], method={self.method}{word}, "
+            f"log-likelihood {self.total_log_likelihood:.4f}{end})"
+        )
+
+    def _repr_html_(self) -> str:
+        from givens._html import estimates_html
+
+        return estimates_html(self)
+
+
+def _after(before: int, array: Any, fill: float = np.nan) -> Any:
+    """With rows in front for which there is no answer."""
+    if before == 0:
+        return array
+    front = np.full((before, *array.shape[1:]), fill, dtype=array.dtype)
+    joined = np.concatenate([front, array])
+    joined.setflags(write=False)
+    return joined
+
+
+def step_error(track: Track, native: _native.Estimates, goal: Goal, name: Any = None) -> StepError | None:
+    """Why a run ended, as an exception that holds the rows before."""
+    failure = native.failure
+    if failure is None:
+        return None
+    fields: dict[str, Any] = dict(failure)
+    message, row = fields.pop("message"), fields["row"]
+    if row is not None:
+        row = fields["row"] = row + track.before
+    shown = track.clock.shown(np.array([fields["time"]]))[0]
+    place = f"t = {shown:g}" if track.clock.origin is None else f"{shown}"
+    place = place if row is None else f"row {row}, {place}"
+    place = place if name is None else f"track {name}, {place}"
+    error = StepError(f"{place}: {message}", track=name, **fields)
+    error.finished = Estimates._of(track, native, goal, None, error)
+    return error

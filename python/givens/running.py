@@ -1,0 +1,244 @@
+"""Filters and smoothers over whole trajectories."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from givens import _native
+from givens._plan import Track, plan
+from givens.batch import Batch
+from givens.errors import InputError
+from givens.estimates import Estimates, Goal, step_error
+from givens.gaussian import Gaussian
+
+__all__ = ["filter", "merge", "smooth"]
+
+
+def filter(
+    model: Any,
+    sensors: Any,
+    t: Any,
+    z: Any = None,
+    *,
+    prior: Gaussian | Sequence[Gaussian] | None = None,
+    method: str | None = None,
+    t0: Any = None,
+    u: Any = None,
+    at: Any = None,
+    noise: Any = None,
+    params: Mapping[str, Any] | None = None,
+    threads: int | None = None,
+    **options: Any,
+) -> Estimates | Batch:
+    """Estimates the state at each time from the measurements up to it.
+
+    Parameters
+    ----------
+    model : Sde, Transition or ModelFile
+        How the state moves.
+    sensors : Sensor or list of Sensor
+        What is measured; None for a model file, which has its own.
+    t : array_like, shape (rows,)
+        Times in order: numbers, or dates, of which seconds since `t0` are taken. Or a table in place of `t` and `z`: of
+        pandas, polars, pyarrow or duckdb, or a dict of arrays, with the columns ``time``, one for each measure, and, if
+        there are such, ``sensor``, ``track_id`` and ``u_…`` for controls. For a model file also the path of a CSV file.
+    z : array_like, shape (rows, d)
+        Measurements, those of several sensors side by side in their order; NaN and masked are missing. Or a table by
+        sensor: ``{"radar": (rows, 3), …}``. A row without any asks for the prediction. Of a batch: shape
+        (runs, rows, d), or a list with an array for each run, with `t` of shape (rows,) or a list as well.
+    prior : Gaussian
+        The belief at `t0`; of a batch also a list with one for each run.
+    method : str, optional
+        A name of `methods`; by default ``"sr-cd-ckf"`` or ``"sr-ckf"``.
+    t0 : float or date, optional
+        When the prior holds; by default at the first row, which is then updated without a prediction.
+    u : array_like, shape (rows, c), or mapping, optional
+        Controls, each holding from its row to the next.
+    at : array_like, optional
+        Times at which estimates are wanted, in place of those of the rows; asking changes no other number.
+    noise : array_like or mapping, optional
+        Standard deviations (rows, d) or covariances (rows, d, d) of the errors, row by row, in place of the sensor's
+        own; of several sensors a table by name.
+    params : mapping, optional
+        Values of parameters by name; of a batch also arrays with one for each run.
+    threads : int, optional
+        Threads for a batch; by default as many as there are cores. Estimates do not depend on it.
+    **options
+        Parts and options of the method, as `methods` lists them: ``substeps=8``, ``rtol=1e-8``, ``form="covariance"``.
+
+    Returns
+    -------
+    Estimates
+        One row for each row of the data; of a batch, a `Batch` of them.
+
+    Raises
+    ------
+    InputError
+        For arguments that cannot serve; nothing has been computed then.
+    MethodError
+        For a method or an option that does not exist or does not go with the model.
+    StepError
+        For a step that fails; its `finished` holds the rows before. In a batch, other tracks go on, and `Batch.failed`
+        lists those that did not.
+
+    Examples
+    --------
+    >>> import givens as gv
+    >>> import numpy as np
+    >>> model = gv.Sde(lambda t, x: [x[1], -x[0]], diffusion=[0.0, 0.1], state=["x", "v"])
+    >>> ruler = gv.Sensor(lambda t, x: x[:1], measures=["length"], std=[0.1])
+    >>> t = np.linspace(0, 3, 31)
+    >>> est = gv.filter(model, ruler, t, np.cos(t)[:, None], prior=gv.Gaussian([1, 0], std=[1, 1]))
+    >>> est.mean.shape
+    (31, 2)
+    >>> bool(abs(est.mean[-1, 0] - np.cos(3)) < 0.05)
+    True
+    """
+    tracks, batch = plan(
+        model, sensors, t, z, prior=prior, method=method, t0=t0, u=u, noise=noise, params=params, options=options
+    )
+    return _run(tracks, batch, Goal("filter"), at, threads)
+
+
+def smooth(
+    model: Any,
+    sensors: Any,
+    t: Any,
+    z: Any = None,
+    *,
+    prior: Gaussian | Sequence[Gaussian] | None = None,
+    method: str | None = None,
+    lag: int | None = None,
+    point: Any = None,
+    t0: Any = None,
+    u: Any = None,
+    at: Any = None,
+    noise: Any = None,
+    params: Mapping[str, Any] | None = None,
+    threads: int | None = None,
+    **options: Any,
+) -> Estimates | Batch:
+    """Estimates the state at each time from all measurements.
+
+    Parameters
+    ----------
+    model, sensors, t, z, prior, method, t0, u, at, noise, params, threads, **options
+        As for `filter`.
+    lag : int, optional
+        Each row is estimated from itself and the next `lag` rows only.
+    point : float or date, optional
+        The state at this time, which is that of a row or of the prior, from each row on: one row for each from then on.
+
+    Returns
+    -------
+    Estimates
+        `mean` and `cov` are the smoothed ones, and `filtered_mean` and `filtered_cov` stand beside them. Of a batch, a
+        `Batch`.
+
+    Raises
+    ------
+    InputError, MethodError, StepError
+        As `filter`.
+
+    Examples
+    --------
+    >>> import givens as gv
+    >>> import numpy as np
+    >>> model = gv.Transition(lambda t, dt, x: x, noise_cov=lambda t, dt: [[0.1 * dt]], state=["x"])
+    >>> sensor = gv.Sensor(lambda t, x: x, measures=["x"], std=[1.0])
+    >>> est = gv.smooth(model, sensor, [0, 1, 2], [[0.0], [np.nan], [1.0]], prior=gv.Gaussian([0], std=[10]))
+    >>> bool((est.std[:, 0] <= np.sqrt(est.filtered_cov[:, 0, 0])).all())
+    True
+    """
+    if lag is not None and point is not None:
+        raise InputError("`lag` and `point` at once", argument="lag", remedy="give one of them")
+    tracks, batch = plan(
+        model, sensors, t, z, prior=prior, method=method, t0=t0, u=u, noise=noise, params=params, options=options
+    )
+    goal = Goal("interval")
+    if lag is not None:
+        if not isinstance(lag, (int, np.integer)) or lag < 0:
+            raise InputError(f"`lag` is {lag!r}", argument="lag", remedy="a lag is a whole number of rows, from 0 up")
+        goal = Goal("lag", float(lag))
+    if point is not None:
+        goal = Goal("point", float(tracks[0].clock.seconds("point", point)))
+    return _run(tracks, batch, goal, at, threads)
+
+
+def _run(tracks: list[Track], batch: bool, goal: Goal, at: Any, threads: int | None) -> Estimates | Batch:
+    times = [None if at is None else np.atleast_1d(track.clock.seconds("at", at)) for track in tracks]
+    if not batch:
+        native = tracks[0].run(goal.word, goal.value, times[0])
+        error = step_error(tracks[0], native, goal)
+        if error is not None:
+            raise error
+        return Estimates._of(tracks[0], native, goal, times[0])
+    jobs = [track.arguments(wanted) for track, wanted in zip(tracks, times, strict=True)]
+    found = _native.run_batch(jobs, goal.word, goal.value, threads)
+    estimates, failed = [], []
+    for k, (track, native, wanted) in enumerate(zip(tracks, found, times, strict=True)):
+        error = step_error(track, native, goal, k if track.id is None else track.id)
+        if error is not None:
+            failed.append(error)
+        estimates.append(Estimates._of(track, native, goal, wanted, error))
+    return Batch(estimates, failed)
+
+
+def merge(measurements: Mapping[str, tuple[Any, Any]]) -> tuple[Any, dict[str, npt.NDArray[np.float64]]]:
+    """Brings sensors that measure at their own times into rows of common times.
+
+    Parameters
+    ----------
+    measurements : mapping
+        For each sensor its times and its measurements: ``{"radar": (t1, z1), "gps": (t2, z2)}``.
+
+    Returns
+    -------
+    t : ndarray
+        All times in order, each once.
+    z : dict
+        For each sensor an array of as many rows, NaN where it did not measure.
+
+    Examples
+    --------
+    >>> import givens as gv
+    >>> t, z = gv.merge({"radar": ([0.0, 1.0], [[5.0], [6.0]]), "gps": ([0.5, 1.0], [[7.0], [8.0]])})
+    >>> t
+    array([0. , 0.5, 1. ])
+    >>> z["gps"].ravel()
+    array([nan,  7.,  8.])
+    """
+    from givens._arrays import numbers
+
+    times, values = {}, {}
+    for name, pair in measurements.items():
+        if not (isinstance(pair, tuple) and len(pair) == 2):
+            raise InputError(
+                f"`{name}` is not a pair of times and measurements", argument="measurements", component=name
+            )
+        times[name] = np.asarray(pair[0].to_numpy() if hasattr(pair[0], "to_numpy") else pair[0])
+        array = numbers(name, pair[1])
+        values[name] = array.reshape(-1, 1) if array.ndim == 1 else array
+        if len(values[name]) != len(times[name]):
+            raise InputError(
+                f"`{name}` has {len(times[name])} times and {len(values[name])} measurements",
+                argument="measurements",
+                component=name,
+            )
+        if len(np.unique(times[name])) != len(times[name]):
+            raise InputError(
+                f"`{name}` measures twice at one time",
+                argument="measurements",
+                component=name,
+                remedy="give the second one as a sensor of its own",
+            )
+    common = np.unique(np.concatenate(list(times.values()))) if times else np.empty(0)
+    merged = {}
+    for name, array in values.items():
+        merged[name] = np.full((len(common), array.shape[1]), np.nan)
+        merged[name][np.searchsorted(common, times[name])] = array
+    return common, merged

@@ -94,7 +94,8 @@ pub fn run(
     }
     let (outcome, raised) = detached(py, || job.run());
     if let Some(raised) = raised {
-        return Err(noted(py, raised, outcome.failure.as_ref()).into());
+        let (row, error) = outcome.failure.unzip();
+        return Err(noted(py, raised, row, error.as_ref()).into());
     }
     Ok(job.estimates(py, outcome)?)
 }

@@ -1,6 +1,7 @@
 //! States at any time, beside the recursion over the rows: no other number changes by asking.
 
-use super::recorder::{OwnFilter, push, put};
+use super::own::OwnFilter;
+use super::recorder::{push, put};
 use crate::filter::{Belief, Form, Over, StepError};
 use crate::model::Observation;
 use crate::smoother::{History, Smoothed};

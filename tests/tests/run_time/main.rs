@@ -1,0 +1,4 @@
+//! What a front end of run time is promised, over the whole registry: filters stepped by hand, snapshots.
+
+mod by_hand;
+mod snapshots;

@@ -122,8 +122,12 @@ impl<'t, 'm, X: Over<M>, M, H: Observation> Recorder<'t, 'm, X, M, H> {
             Some(point) => {
                 out.mean.extend_from_slice(point.mean());
                 out.cov.extend_from_slice(point.cov());
+                out.factor.extend_from_slice(point.factor());
             }
-            None => push(&self.filter, &mut out.mean, &mut out.cov),
+            None => {
+                push(&self.filter, &mut out.mean, &mut out.cov);
+                out.factor.extend_from_slice(self.filter.factor());
+            }
         }
         if out.smoothed {
             push(&self.filter, &mut out.filtered_mean, &mut out.filtered_cov);
@@ -178,6 +182,7 @@ pub(super) fn push<X: Over<M>, M>(filter: &OwnFilter<X, M>, mean: &mut Vec<f64>,
 pub(super) fn put<F: Form>(out: &mut Estimates, row: usize, belief: &Belief<f64>) {
     let n = belief.mean.len();
     out.mean[row * n..(row + 1) * n].copy_from_slice(belief.mean);
+    out.factor[row * n * n..(row + 1) * n * n].copy_from_slice(belief.factor);
     let cov = &mut out.cov[row * n * n..(row + 1) * n * n];
     if F::SQUARE_ROOT {
         crate::kernels::square(cov, n, belief.factor, n, n);

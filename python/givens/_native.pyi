@@ -318,6 +318,10 @@ class Estimates:
         """(K, n, n)"""
 
     @property
+    def factor(self) -> _Array:
+        """(K, n, n): lower-triangular roots of `cov`; of a square-root method its own."""
+
+    @property
     def filtered_mean(self) -> _Array:
         """(K, n); of a filter the same array as `mean`."""
 
@@ -356,6 +360,71 @@ class Estimates:
     @property
     def failure(self) -> _Failure | None:
         """Why the run ended before its last row; the rows before stand in the arrays."""
+
+class _Snapshot(TypedDict):
+    time: float
+    step: int
+    mean: _Array
+    factor: _Array
+    cov: _Array
+    moved: _Array
+    floor: _Array
+    controls: _Array | None
+    parameters: _Array
+    work: tuple[int, int, int, int]
+    innovation: _Array
+    innovation_cov: _Array
+    nis: float
+    nis_dof: int
+    log_likelihood: float
+
+@final
+class Filter:
+    """A filter that is stepped by hand; a step that fails raises StepError and leaves the belief of the last that did not."""
+
+    @staticmethod
+    def start(model: Model, choice: Choice, mean: _Array, cov: _Array, t0: float) -> Filter:
+        """Starts from a belief at `t0`; `cov` may be the standard deviations, length n."""
+
+    @staticmethod
+    def resume(model: Model, choice: Choice, snapshot: _Snapshot) -> Filter:
+        """Goes on, to the bit, where another one of the same model and method was when its snapshot was taken."""
+
+    def predict(self, t: float) -> None:
+        """Moves the belief to time `t`."""
+
+    def update(self, z: _Array) -> None:
+        """Teaches the belief a measurement of all sensors, length d; NaN where a component is missing."""
+
+    def set_controls(self, u: _Array) -> None:
+        """Sets the controls, which hold until they are set again."""
+
+    @property
+    def time(self) -> float: ...
+    @property
+    def mean(self) -> _Array: ...
+    @property
+    def cov(self) -> _Array: ...
+    @property
+    def factor(self) -> _Array:
+        """The lower-triangular root of `cov`."""
+
+    @property
+    def innovation(self) -> _Array:
+        """Of the last measurement, length d; NaN where a component was missing, and before the first."""
+
+    @property
+    def innovation_cov(self) -> _Array: ...
+    @property
+    def nis(self) -> float: ...
+    @property
+    def nis_dof(self) -> int: ...
+    @property
+    def log_likelihood(self) -> float:
+        """Of the last measurement; 0 if nothing was measured."""
+
+    def snapshot(self) -> _Snapshot:
+        """All that the filter carries, as plain data."""
 
 def run(
     model: Model,

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import ctypes
+import math
 from typing import Any
 
 import native_models as m
 import numpy as np
 import pytest
-from givens._native import Estimates, Model, methods, run, simulate
+from givens._native import Estimates, Function, Model, methods, run, simulate
 from native_models import MEAN, SPRING, STD, STEPS, TIME, Z, choose
 
 CONTINUOUS = [entry["name"] for entry in methods() if entry["kind"] == "continuous"]
@@ -177,3 +179,25 @@ def test_estimates_are_made_once_and_cannot_be_written_to() -> None:
         assert not array.flags.writeable
     assert est.filtered_mean is est.mean
     assert not est.smoothed
+
+
+def test_functions_of_c_are_called_by_their_address() -> None:
+    numbers = ctypes.POINTER(ctypes.c_double)
+
+    @ctypes.CFUNCTYPE(None, ctypes.c_double, numbers, numbers, numbers)
+    def flow(t: float, x: Any, p: Any, out: Any) -> None:
+        out[0], out[1] = x[1], -p[0] * math.sin(x[0])
+
+    @ctypes.CFUNCTYPE(None, ctypes.c_double, ctypes.c_double, numbers, numbers, numbers)
+    def step(t: float, dt: float, x: Any, p: Any, out: Any) -> None:
+        out[0], out[1] = x[0] + dt * x[1], x[1] - dt * p[0] * math.sin(x[0])
+
+    def at(function: Any, **how: Any) -> Function:
+        address = ctypes.cast(function, ctypes.c_void_p).value
+        assert address is not None
+        return Function.address(address, function, **how)
+
+    model = m.continuous(drift=at(flow))
+    assert_equal(solve(model, "sr-cd-ckf2"), solve(m.continuous(), "sr-cd-ckf2"), 1e-9)
+    model = m.discrete(transition=at(step, step=True))
+    assert_equal(solve(model, "sr-ckf"), solve(m.discrete(), "sr-ckf"), 1e-12)

@@ -19,30 +19,35 @@ pub fn threads(asked: Option<usize>) -> Result<usize> {
     }
 }
 
-/// Does the jobs 0 … count − 1, each as a run of its own, and gives what comes of them in order. An exception in one of
-/// them, or a signal, ends all; it comes with the job's number.
+/// An exception that has ended all jobs: in one of them, with what came of that, or a signal.
+pub struct Ended<R> {
+    pub raised: PyErr,
+    pub job: Option<(usize, R)>,
+}
+
+/// Does the jobs 0 … count − 1, each as a run of its own, and gives what comes of them in order.
 pub fn each<R: Send>(
     py: Python<'_>,
     count: usize,
     threads: usize,
     job: impl Fn(usize) -> R + Sync,
-) -> core::result::Result<Vec<R>, (Option<usize>, PyErr)> {
+) -> core::result::Result<Vec<R>, Ended<R>> {
     if count.min(threads) <= 1 {
         let mut done = Vec::with_capacity(count);
         for k in 0..count {
             let (result, raised) = detached(py, || job(k));
             if let Some(raised) = raised {
-                return Err((Some(k), raised));
+                return Err(Ended { raised, job: Some((k, result)) });
             }
             done.push(result);
         }
         return Ok(done);
     }
     let (stop, next) = (Arc::new(AtomicBool::new(false)), AtomicUsize::new(0));
-    let raised: Mutex<Option<(Option<usize>, PyErr)>> = Mutex::new(None);
-    let note = |k: Option<usize>, error: PyErr| {
+    let ended: Mutex<Option<Ended<R>>> = Mutex::new(None);
+    let note = |raised: PyErr, job: Option<(usize, R)>| {
         stop.store(true, Ordering::Relaxed);
-        raised.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert((k, error));
+        ended.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(Ended { raised, job });
     };
     let mut done: Vec<Option<R>> = py.detach(|| {
         let (send, receive) = mpsc::channel();
@@ -57,7 +62,7 @@ pub fn each<R: Send>(
                         }
                         let (result, raised) = alone(Some(Arc::clone(stop)), false, || job(k));
                         match raised {
-                            Some(raised) => note(Some(k), raised),
+                            Some(raised) => note(raised, Some((k, result))),
                             None if send.send((k, result)).is_err() => return,
                             None => {}
                         }
@@ -71,7 +76,7 @@ pub fn each<R: Send>(
                     Ok((k, result)) => done[k] = Some(result),
                     Err(RecvTimeoutError::Timeout) => {
                         if let Err(error) = Python::attach(|py| py.check_signals()) {
-                            note(None, error);
+                            note(error, None);
                         }
                     }
                     Err(RecvTimeoutError::Disconnected) => break done,
@@ -79,8 +84,8 @@ pub fn each<R: Send>(
             }
         })
     });
-    match raised.into_inner().unwrap_or_else(PoisonError::into_inner) {
-        Some(raised) => Err(raised),
+    match ended.into_inner().unwrap_or_else(PoisonError::into_inner) {
+        Some(ended) => Err(ended),
         None => Ok(done.drain(..).flatten().collect()),
     }
 }

@@ -101,9 +101,10 @@ pub fn refusal(py: Python<'_>, model: &Model, choice: Option<&Choice>, error: &S
 }
 
 /// Notes on an exception of the user's where the run was.
-pub fn noted(py: Python<'_>, raised: PyErr, failure: Option<&(usize, StepError)>) -> PyErr {
-    if let Some((row, error)) = failure {
-        let note = format!("raised in a function of the model at row {row}, t = {}", Shown(error.time));
+pub fn noted(py: Python<'_>, raised: PyErr, row: Option<usize>, error: Option<&StepError>) -> PyErr {
+    if let Some(error) = error {
+        let row = row.map_or_else(String::new, |row| format!("row {row}, "));
+        let note = format!("raised in a function of the model at {row}t = {}", Shown(error.time));
         // an exception that takes no note is raised as it is
         let _ = raised.add_note(py, note);
     }

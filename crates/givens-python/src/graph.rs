@@ -2,9 +2,11 @@
 
 use givens::model::At;
 use givens_expr::{Binary, Input, Inputs, MAX_NODES, Node, Program, Unary};
-use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
+use numpy::{IntoPyArray, PyArray1, PyReadonlyArrayDyn};
 use pyo3::exceptions::{PyOverflowError, PyValueError};
 use pyo3::prelude::*;
+
+use crate::numbers::numbers;
 
 /// Expressions in which equal subexpressions are one node, known by its number.
 #[pyclass(module = "givens._native")]
@@ -165,16 +167,17 @@ impl Graph {
         &self,
         py: Python<'py>,
         nodes: Vec<u32>,
-        x: PyReadonlyArray1<'py, f64>,
+        x: PyReadonlyArrayDyn<'py, f64>,
         t: f64,
         dt: f64,
-        u: PyReadonlyArray1<'py, f64>,
-        p: PyReadonlyArray1<'py, f64>,
+        u: PyReadonlyArrayDyn<'py, f64>,
+        p: PyReadonlyArrayDyn<'py, f64>,
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
         let nodes = self.nodes(&nodes)?;
         let full = |error: givens_expr::GraphError| PyOverflowError::new_err(error.to_string());
         let program = Program::compile(&self.graph, &nodes).map_err(full)?;
-        let at = At { t, dt, u: u.as_slice()?, p: p.as_slice()? };
-        Ok(program.values(&Inputs { at, x: x.as_slice()?, z: &[] }).into_pyarray(py))
+        let (x, u, p) = (numbers(&x), numbers(&u), numbers(&p));
+        let at = At { t, dt, u: &u, p: &p };
+        Ok(program.values(&Inputs { at, x: &x, z: &[] }).into_pyarray(py))
     }
 }

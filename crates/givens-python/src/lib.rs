@@ -7,6 +7,7 @@ mod crowd;
 mod errors;
 mod estimates;
 mod failure;
+mod filter;
 mod graph;
 mod metrics;
 mod model;
@@ -26,6 +27,8 @@ mod _native {
     use crate::choice::{Choice, methods, options};
     #[pymodule_export]
     use crate::estimates::Estimates;
+    #[pymodule_export]
+    use crate::filter::Filter;
     #[pymodule_export]
     use crate::graph::Graph;
     #[pymodule_export]

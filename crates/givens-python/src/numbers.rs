@@ -28,7 +28,7 @@ pub fn shaped(
 }
 
 /// A shape as Python writes it.
-fn tuple(shape: &[usize]) -> String {
+pub fn tuple(shape: &[usize]) -> String {
     let lengths: Vec<String> = shape.iter().map(usize::to_string).collect();
     match lengths.as_slice() {
         [one] => format!("({one},)"),

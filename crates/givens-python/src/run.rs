@@ -7,7 +7,7 @@ use numpy::PyReadonlyArrayDyn;
 use pyo3::prelude::*;
 
 use crate::choice::Choice;
-use crate::crowd::{aside, each, threads};
+use crate::crowd::{Ended, aside, each, threads};
 use crate::errors::Result;
 use crate::estimates::Estimates;
 use crate::failure::noted;
@@ -94,7 +94,7 @@ pub fn run(
     }
     let (outcome, raised) = detached(py, || job.run());
     if let Some(raised) = raised {
-        return Err(noted(py, raised, outcome.failure.as_ref()).into());
+        return Err(at_row(py, raised, outcome).into());
     }
     Ok(job.estimates(py, outcome)?)
 }
@@ -134,12 +134,18 @@ pub fn run_batch<'py>(
     let alone = jobs.iter().any(|job| job.model.needs_python());
     let threads = self::threads(threads)?;
     let outcomes = each(py, jobs.len(), if alone { 1 } else { threads }, |k| jobs[k].run());
-    let outcomes = outcomes.map_err(|(k, raised)| match k {
-        Some(k) => in_track(py, k, raised),
+    let outcomes = outcomes.map_err(|Ended { raised, job }| match job {
+        Some((k, outcome)) => in_track(py, k, at_row(py, raised, outcome)),
         None => raised,
     })?;
     let all = jobs.iter().zip(outcomes).map(|(job, outcome)| job.estimates(py, outcome));
     Ok(all.collect::<PyResult<Vec<_>>>()?)
+}
+
+/// Notes on an exception of the user's at which row it was raised.
+fn at_row(py: Python<'_>, raised: PyErr, outcome: Outcome) -> PyErr {
+    let (row, error) = outcome.failure.unzip();
+    noted(py, raised, row, error.as_ref())
 }
 
 /// Notes on an exception which track it is about.

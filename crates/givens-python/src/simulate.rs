@@ -69,7 +69,7 @@ pub fn simulate<'py>(
     let draw = Draw { model, prior, data, paths, seed, track };
     let threads = if model.needs_python() { 1 } else { self::threads(threads)? };
     let drawn = each(py, runs as usize, threads, |run| draw.run(run as u32));
-    let drawn = drawn.map_err(|(_, raised)| raised)?;
+    let drawn = drawn.map_err(|ended| ended.raised)?;
     let (mut states, mut measured) = (Vec::new(), Vec::new());
     for one in drawn {
         let one = one.map_err(|error| {

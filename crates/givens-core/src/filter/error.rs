@@ -73,6 +73,8 @@ pub enum Quantity {
     Control,
     /// A parameter given to the filter.
     Parameter,
+    /// The time at which a belief is to hold.
+    Time,
 }
 
 impl Quantity {
@@ -94,6 +96,7 @@ impl Quantity {
             Quantity::Estimate => "state estimate",
             Quantity::Control => "control",
             Quantity::Parameter => "parameter",
+            Quantity::Time => "time of the belief",
         }
     }
 }

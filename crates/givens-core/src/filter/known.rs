@@ -53,8 +53,14 @@ impl<X: Method, M, T: Real, B: AsRef<[T]>> Filter<'_, X, M, T, B> {
         if X::Form::SQUARE_ROOT {
             crate::kernels::square(cov, n, self.factor(), n, n);
         } else {
-            cov[..n * n].copy_from_slice(self.array(n + n * n, n * n));
+            cov[..n * n].copy_from_slice(self.own_cov());
         }
+    }
+
+    /// P itself, n × n, in covariance form; empty in square-root form.
+    pub(super) fn own_cov(&self) -> &[T] {
+        let n = self.layout.sizes.states;
+        self.array(n + n * n, if X::Form::SQUARE_ROOT { 0 } else { n * n })
     }
 
     /// P, n × n, in memory of its own.

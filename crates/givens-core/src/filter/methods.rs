@@ -6,8 +6,10 @@ use super::predict::{OneTransition, TimeUpdate};
 use super::sizes::Sizes;
 use super::update::Block;
 #[cfg(feature = "alloc")]
-use super::{Filter, Gaussian, Grow, Prior, StepError};
+use super::{Filter, Gaussian, Grow, Prior, Snapshot, StepError};
 use crate::rule::{CentralDifference, Cubature3, Cubature5, GaussHermite, Rule, Taylor, Unscented};
+#[cfg(feature = "alloc")]
+use crate::scalar::Real;
 #[cfg(feature = "alloc")]
 use core::borrow::Borrow;
 
@@ -80,6 +82,27 @@ pub trait Method: Copy {
         let prior = prior.borrow();
         let prior = Prior { time: t0, mean: prior.mean(), factor: prior.factor(), cov: prior.cov() };
         Filter::start_in(*self, model, sizes, false, prior, memory)
+    }
+
+    /// Starts the filter where another one of the same method was when the snapshot was taken, in memory of its own: it
+    /// goes on with the same numbers to the bit.
+    ///
+    /// # Errors
+    /// Those of [`Filter::resume_in`].
+    #[cfg(feature = "alloc")]
+    fn resume<'m, M, T: Real>(
+        &self,
+        model: &'m M,
+        snapshot: &Snapshot<T>,
+    ) -> Result<Filter<'m, Self, M, T, alloc::vec::Vec<T>>, StepError>
+    where
+        Self: Over<M>,
+    {
+        let Snapshot { time, step, .. } = *snapshot;
+        let sizes = self.sizes(model).map_err(|fault| StepError { fault, time, step })?;
+        let mut memory = alloc::vec::Vec::new();
+        memory.grow(Filter::<Self, M, T, alloc::vec::Vec<T>>::memory_len(self, sizes, false));
+        Filter::resume_in(*self, model, sizes, false, snapshot.carried(), memory)
     }
 }
 

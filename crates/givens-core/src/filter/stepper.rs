@@ -9,7 +9,6 @@ use super::methods::Over;
 use super::predict::TimeUpdate;
 use super::sizes::{Sizes, countable};
 use super::update::Learnt;
-use crate::model::At;
 use crate::ode::Work;
 use crate::rule::Rule;
 use crate::scalar::Real;
@@ -46,7 +45,7 @@ pub struct Filter<'m, X, M, T, B> {
     /// How often it was predicted, or what it has learnt was taken: a smoother that has missed one must not go on.
     pub(super) moves: usize,
     pub(super) memory: B,
-    scalar: PhantomData<T>,
+    pub(super) scalar: PhantomData<T>,
 }
 
 impl<X: Clone, M, T, B: Clone> Clone for Filter<'_, X, M, T, B> {
@@ -119,98 +118,7 @@ pub(super) fn layout<X: Over<M>, M>(method: &X, sizes: Sizes, smoothing: bool) -
     if method.time_update().moves_root() { layout.with_moved_root() } else { layout }
 }
 
-/// The initial belief of a filter, in plain slices: the mean of length n, the lower-triangular root of the covariance,
-/// n × n, and the covariance itself (read in covariance form only).
-#[derive(Clone, Copy, Debug)]
-pub struct Prior<'a> {
-    /// When it holds.
-    pub time: f64,
-    /// Length n.
-    pub mean: &'a [f64],
-    /// Lower triangular, n × n.
-    pub factor: &'a [f64],
-    /// n × n; in square-root form it may be empty.
-    pub cov: &'a [f64],
-}
-
-impl<'m, X: Over<M>, M, T: Real, B: AsMut<[T]>> Filter<'m, X, M, T, B> {
-    /// Starts a filter in the caller's memory of at least [`memory_len`](Self::memory_len) scalars. With `smoothing`,
-    /// every prediction also leaves what a smoother needs to come [`back`](Self::backward) over it.
-    ///
-    /// # Errors
-    /// An option out of its range, a slice of the wrong length, a number that is not finite.
-    pub fn start_in(
-        method: X,
-        model: &'m M,
-        sizes: Sizes,
-        smoothing: bool,
-        prior: Prior,
-        mut memory: B,
-    ) -> Result<Self, StepError> {
-        let n = sizes.states;
-        let fail = |fault| StepError { fault, time: prior.time, step: 0 };
-        method.rule().check(n).map_err(|error| fail(Fault::Option(error)))?;
-        let shape = method.rule().shape(n);
-        let time_update = method.time_update();
-        time_update.check(model).map_err(fail)?;
-        let layout = layout::<X, M>(&method, sizes, smoothing);
-        let (square, needs) = (n.saturating_mul(n), time_update.sizes(model, shape));
-        let cov = if X::Form::SQUARE_ROOT && prior.cov.is_empty() { 0 } else { square };
-        let at_least = |of, needed: usize, given: usize| (of, needed, needed.min(given));
-        for (of, expected, found) in [
-            ("the model's state", n, time_update.states(model)),
-            at_least("the state", 1, n),
-            ("mean", n, prior.mean.len()),
-            ("factor", square, prior.factor.len()),
-            ("covariance", cov, prior.cov.len()),
-            at_least("the sizes' process noise", needs.process_noise, sizes.process_noise),
-            at_least("the sizes' controls", needs.controls, sizes.controls),
-            at_least("the sizes' parameters", needs.parameters, sizes.parameters),
-            at_least("the sizes' scratch for the model", needs.model, sizes.model),
-            at_least("the filter's memory", layout.len, memory.as_mut().len()),
-        ] {
-            if expected != found {
-                return Err(fail(Fault::Length { of, expected, found }));
-            }
-        }
-        for values in [prior.mean, prior.factor, prior.cov] {
-            if let Some(component) = values.iter().position(|x| !x.is_finite()) {
-                return Err(fail(Fault::NotFinite { quantity: Quantity::Estimate, component }));
-            }
-        }
-        let arrays = parts::<T, X::Form>(&layout, memory.as_mut());
-        method.rule().tabulate(n, arrays.table);
-        arrays.floor.fill(T::zero());
-        for (to, from) in [
-            (arrays.p, time_update.parameters(model)),
-            (arrays.belief.mean, prior.mean),
-            (arrays.belief.factor, prior.factor),
-            (arrays.belief.cov, prior.cov),
-        ] {
-            to.iter_mut().zip(from).for_each(|(to, &x)| *to = T::of(x));
-        }
-        let Parts { mut learnt, u, p, belief, scratch, .. } = parts::<T, X::Form>(&layout, memory.as_mut());
-        learnt.reset(n);
-        let at = At { t: T::of(prior.time), dt: T::zero(), u, p };
-        time_update.probe(model, &at, belief.mean, scratch).map_err(fail)?;
-        let (time, scalar, controlled) = (prior.time, PhantomData, sizes.controls == 0);
-        let work = Work::default();
-        Ok(Self {
-            method,
-            model,
-            layout,
-            time,
-            step: 0,
-            present: 0,
-            controlled,
-            work,
-            moved: false,
-            moves: 0,
-            memory,
-            scalar,
-        })
-    }
-
+impl<X: Over<M>, M, T: Real, B: AsMut<[T]>> Filter<'_, X, M, T, B> {
     /// Scalars of memory that a filter of these sizes needs; `memory` of a method's type is the same as a constant.
     #[must_use]
     pub fn memory_len(method: &X, sizes: Sizes, smoothing: bool) -> usize {
@@ -251,7 +159,12 @@ impl<'m, X: Over<M>, M, T: Real, B: AsMut<[T]>> Filter<'m, X, M, T, B> {
     }
 }
 
-fn set<T: Real>(to: &mut [T], from: &[f64], of: &'static str, quantity: Quantity) -> Result<(), Fault> {
+pub(super) fn set<T: Real>(
+    to: &mut [T],
+    from: &[f64],
+    of: &'static str,
+    quantity: Quantity,
+) -> Result<(), Fault> {
     if to.len() != from.len() {
         return Err(Fault::Length { of, expected: to.len(), found: from.len() });
     }

@@ -71,9 +71,10 @@ impl Build<'_, '_> {
         &mut self,
         what: &'static str,
         given: &Given,
-        outputs: usize,
+        [rows, columns]: [usize; 2],
         [state, step]: [bool; 2],
     ) -> Result<Part> {
+        let outputs = rows.saturating_mul(columns);
         let body = match given {
             Given::Called(function) => Body::Called(function.get().0.again(self.py)),
             Given::Nodes(_) => {
@@ -97,7 +98,7 @@ impl Build<'_, '_> {
                 )
             }
         };
-        Ok(Part { what, body, outputs, jacobian: None })
+        Ok(Part { what, body, outputs, rows, jacobian: None })
     }
 
     /// An error of expressions, in the names of the model.
@@ -132,7 +133,7 @@ impl Build<'_, '_> {
         let n = self.states.len();
         let entries = n.saturating_mul(noises);
         if drift.is_called() || diffusion.is_called() || jacobian.is_some() {
-            let drift = self.part("drift", drift, n, [true, false])?;
+            let drift = self.part("drift", drift, [n, 1], [true, false])?;
             let (drift, nodes) = (self.with_jacobian(drift, jacobian), self.nodes(diffusion)?);
             let found = self.graph.inner().inputs_of_all(&nodes);
             let of = |input: &Named| match input {
@@ -142,7 +143,7 @@ impl Build<'_, '_> {
             };
             let own = found.iter().map(of).max().unwrap_or(Varies::Never);
             let varies = if diffusion.is_called() { varies } else { own };
-            let diffusion = self.part("diffusion", diffusion, entries, [true, false])?;
+            let diffusion = self.part("diffusion", diffusion, [n, noises], [true, false])?;
             let (controls, parameters) = (self.controls, self.parameters.len());
             let called =
                 continuous::Called { states: n, noises, controls, parameters, drift, diffusion, varies };
@@ -176,11 +177,11 @@ impl Build<'_, '_> {
         }
         let none = matches!(noise_cov, Given::Nodes(nodes) if nodes.is_empty());
         if transition.is_called() || noise_cov.is_called() || jacobian.is_some() {
-            let next = self.part("transition", transition, n, [true, true])?;
+            let next = self.part("transition", transition, [n, 1], [true, true])?;
             let next = self.with_jacobian(next, jacobian);
             let zeros = Given::Nodes(vec![self.graph.inner().constant(0.0).number(); n.saturating_mul(n)]);
             let noise_cov = if none { &zeros } else { noise_cov };
-            let noise_cov = self.part("noise_cov", noise_cov, n.saturating_mul(n), [false, true])?;
+            let noise_cov = self.part("noise_cov", noise_cov, [n, n], [false, true])?;
             let (controls, parameters) = (self.controls, self.parameters.len());
             let called = discrete::Called { states: n, controls, parameters, period, next, noise_cov };
             return Ok(Discrete::called(called, self.parameters.to_vec()));
@@ -226,11 +227,11 @@ impl Build<'_, '_> {
             let mut own = Vec::new();
             for sensor in sensors {
                 let k = sensor.columns.len();
-                let measures = self.part("measures", &sensor.measures, k, [true, false])?;
+                let measures = self.part("measures", &sensor.measures, [k, 1], [true, false])?;
                 let measures = self.with_jacobian(measures, sensor.jacobian.as_ref());
                 let (noise, is_cov) = match (&sensor.std, &sensor.cov) {
-                    (Some(std), _) => (self.part("std", std, k, [false, false])?, false),
-                    (None, Some(cov)) => (self.part("cov", cov, k.saturating_mul(k), [false, false])?, true),
+                    (Some(std), _) => (self.part("std", std, [k, 1], [false, false])?, false),
+                    (None, Some(cov)) => (self.part("cov", cov, [k, k], [false, false])?, true),
                     (None, None) => continue,
                 };
                 own.push(sensing::Sensor { measures, noise, is_cov });

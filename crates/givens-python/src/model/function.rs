@@ -5,6 +5,7 @@ use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 
 use crate::errors::{Input, Result};
+use crate::numbers::tuple;
 use crate::watch;
 
 /// void f(double t, const double *x, const double *p, double *out)
@@ -86,12 +87,12 @@ pub struct Place<'a> {
 }
 
 impl How {
-    /// Evaluates `points` points, component by component: `x` is n × `points`, `out` d × `points`. An exception ends the
-    /// run on this thread.
-    pub fn call(&self, what: &str, at: &Place, points: usize, x: &[f64], out: &mut [f64]) {
+    /// Evaluates `points` points, component by component: `x` is n × `points`, and `out` of this shape is d × `points`, or
+    /// a matrix at one point. An exception ends the run on this thread.
+    pub fn call(&self, what: &str, at: &Place, points: usize, x: &[f64], out: &mut [f64], shape: [usize; 2]) {
         match self {
             How::Callable(f) => {
-                let called = Python::attach(|py| python(py, f.bind(py), what, at, points, x, out));
+                let called = Python::attach(|py| python(py, f.bind(py), what, at, points, x, out, shape));
                 if let Err(error) = called {
                     out.fill(f64::NAN);
                     watch::raise(error);
@@ -131,17 +132,22 @@ fn python(
     points: usize,
     x: &[f64],
     out: &mut [f64],
+    shape: [usize; 2],
 ) -> PyResult<()> {
     let states = PyArray1::from_slice(py, x).reshape([x.len() / points.max(1), points])?;
     let (u, p) = (at.u.to_vec().into_pyarray(py), at.p.to_vec().into_pyarray(py));
     let result = f.call1((at.t, at.dt, states, u, p))?;
-    let Ok(values) = result.extract::<PyArrayLikeDyn<'_, f64, AllowTypeChange>>() else {
+    let none = result.is_none();
+    let values = result.extract::<PyArrayLikeDyn<'_, f64, AllowTypeChange>>().ok().filter(|_| !none);
+    let Some(values) = values else {
         let found = result.get_type().name()?.to_string();
         return Err(Input::plain(format!("`{what}` gave {found}, which is not an array of numbers")).into());
     };
-    if values.len() != out.len() {
-        let (rows, found) = (out.len() / points.max(1), values.shape());
-        let message = format!("`{what}` gave an array of shape {found:?}, not [{rows}, {points}]");
+    // one column may stand without its dimension, and one row
+    let flat = values.ndim() <= 1 && values.len() == out.len() && shape.contains(&1);
+    if values.shape() != shape && !flat {
+        let (found, expected) = (tuple(values.shape()), tuple(&shape));
+        let message = format!("`{what}` gave an array of shape {found}, not {expected}");
         let help = "it is called with all points at once: x[i] is component i of all of them";
         return Err(Input::plain(message).help(help).into());
     }

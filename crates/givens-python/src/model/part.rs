@@ -15,6 +15,8 @@ pub struct Part {
     pub what: &'static str,
     pub body: Body,
     pub outputs: usize,
+    /// Rows of its values at one point, if they are a matrix; else one for each.
+    pub rows: usize,
     /// ∂f/∂x, outputs × n row by row.
     pub jacobian: Option<How>,
 }
@@ -36,11 +38,12 @@ fn numbers<T: Real>(from: &[T]) -> Vec<f64> {
 }
 
 /// Calls a function for plain numbers.
-fn call<T: Real>(how: &How, what: &str, at: &At<T>, points: usize, x: &[T], out: &mut [T]) {
+fn call<T: Real>(how: &How, what: &str, at: &At<T>, points: usize, x: &[T], out: &mut [T], rows: usize) {
     let (u, p, x) = (numbers(at.u), numbers(at.p), numbers(x));
     let place = Place { t: at.t.first(), dt: at.dt.first(), u: &u, p: &p };
     let mut values = vec![f64::NAN; out.len()];
-    how.call(what, &place, points, &x, &mut values);
+    let shape = [rows, out.len() / rows.max(1)];
+    how.call(what, &place, points, &x, &mut values, shape);
     out.iter_mut().zip(values).for_each(|(to, from)| *to = T::of(from));
 }
 
@@ -82,7 +85,7 @@ impl Part {
             Body::Program(program) => {
                 program.eval(&Inputs { at: *at, x, z: &[] }, points, out, scratch);
             }
-            Body::Called(how) if plain::<T>() => call(how, self.what, at, points, x, out),
+            Body::Called(how) if plain::<T>() => call(how, self.what, at, points, x, out, self.outputs),
             Body::Called(_) => out.fill(T::of(f64::NAN)),
         }
     }
@@ -99,7 +102,7 @@ impl Part {
     /// A noise at one point: where it is called, its derivatives are taken as zero, for its owner says what it depends on.
     pub fn noise<T: Real>(&self, at: &At<T>, x: &[T], out: &mut [T]) {
         match &self.body {
-            Body::Called(how) => call(how, self.what, at, 1, x, out),
+            Body::Called(how) => call(how, self.what, at, 1, x, out, self.rows),
             Body::Program(_) => self.one(at, x, out),
         }
     }
@@ -111,7 +114,7 @@ impl Part {
             self.points(at, 1, x, &mut *out.value, scratch);
             let mut slopes = vec![T::of(f64::NAN); d * n];
             if plain::<T>() {
-                call(jacobian, "jacobian", at, 1, x, &mut slopes);
+                call(jacobian, "jacobian", at, 1, x, &mut slopes, d);
             }
             for i in 0..d {
                 for j in 0..n {

@@ -1,6 +1,9 @@
 //! All methods by name: the one list that drives the contract tests, the command and Python.
 
+mod any_filter;
+mod begin;
 mod choice;
+mod dispatch;
 mod entry;
 mod option;
 mod resolve;
@@ -10,6 +13,7 @@ mod setting;
 mod time;
 mod words;
 
+pub use any_filter::AnyFilter;
 pub use choice::Choice;
 pub use entry::{ENTRIES, Entry, default_method, find, names};
 pub use option::{OPTIONS, OptionInfo, Reader};

@@ -1,6 +1,7 @@
 //! States at any time, beside the recursion over the rows: no other number changes by asking.
 
-use super::recorder::{OwnFilter, push, put};
+use super::own::OwnFilter;
+use super::recorder::{push, put};
 use crate::filter::{Belief, Form, Over, StepError};
 use crate::model::Observation;
 use crate::smoother::{History, Smoothed};
@@ -79,6 +80,7 @@ impl<'t> Between<'t> {
         let out = &mut self.out;
         push(filter, &mut out.predicted_mean, &mut out.predicted_cov);
         push(filter, &mut out.mean, &mut out.cov);
+        out.factor.extend_from_slice(filter.factor());
         if self.smoothing {
             push(filter, &mut out.filtered_mean, &mut out.filtered_cov);
         }

@@ -2,9 +2,11 @@
 
 mod between;
 mod goal;
+mod own;
 mod recorder;
 
 pub use goal::{Goal, Outcome};
+pub(crate) use own::{OwnFilter, Start, scatter, start_own};
 
 use crate::filter::{Gaussian, Over, StepError};
 use crate::model::Observation;

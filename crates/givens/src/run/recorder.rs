@@ -2,13 +2,11 @@
 
 use super::between::Between;
 use super::goal::{Goal, Outcome};
-use crate::filter::{Belief, Filter, Form, Gaussian, Method, Over, Prior, StepError};
+use super::own::{OwnFilter, Start, scatter, start_own};
+use crate::filter::{Belief, Form, Gaussian, Method, Over, Prior, StepError};
 use crate::model::Observation;
-use crate::rule::Rule;
 use crate::smoother::{FixedPoint, History, Smoothed};
 use crate::{Estimates, Row};
-
-pub(super) type OwnFilter<'m, X, M> = Filter<'m, X, M, f64, Vec<f64>>;
 
 /// A filter, what it has recorded, and what it is to find out.
 pub(super) struct Recorder<'t, 'm, X: Method, M, H> {
@@ -38,13 +36,8 @@ impl<'t, 'm, X: Over<M>, M, H: Observation> Recorder<'t, 'm, X, M, H> {
         rows: usize,
         between: Between<'t>,
     ) -> Result<Self, StepError> {
-        let sizes = method.sizes(model).map_err(|fault| StepError { fault, time: t0, step: 0 })?;
-        let n = sizes.states;
-        let sizes = sizes.with_sensor(sensors, method.rule().shape(n));
-        let smoothing = goal != Goal::Filter;
-        let memory = vec![0.0; OwnFilter::<X, M>::memory_len(&method, sizes, smoothing)];
-        let start = Prior { time: t0, mean: prior.mean(), factor: prior.factor(), cov: prior.cov() };
-        let filter = Filter::start_in(method, model, sizes, smoothing, start, memory)?;
+        let filter = start_own(method, model, sensors, Start::Prior(t0, prior), goal != Goal::Filter)?;
+        let n = filter.mean().len();
         let capacity = match goal {
             Goal::Filter | Goal::Point(_) => 0,
             Goal::Interval => rows,
@@ -129,8 +122,12 @@ impl<'t, 'm, X: Over<M>, M, H: Observation> Recorder<'t, 'm, X, M, H> {
             Some(point) => {
                 out.mean.extend_from_slice(point.mean());
                 out.cov.extend_from_slice(point.cov());
+                out.factor.extend_from_slice(point.factor());
             }
-            None => push(&self.filter, &mut out.mean, &mut out.cov),
+            None => {
+                push(&self.filter, &mut out.mean, &mut out.cov);
+                out.factor.extend_from_slice(self.filter.factor());
+            }
         }
         if out.smoothed {
             push(&self.filter, &mut out.filtered_mean, &mut out.filtered_cov);
@@ -140,13 +137,7 @@ impl<'t, 'm, X: Over<M>, M, H: Observation> Recorder<'t, 'm, X, M, H> {
         let (nu_at, cov_at) = (out.innovation.len(), out.innovation_cov.len());
         out.innovation.resize(nu_at + d, f64::NAN);
         out.innovation_cov.resize(cov_at + d * d, f64::NAN);
-        let there = |k: &usize| self.present[*k];
-        for (i, row) in (0..d).filter(there).enumerate() {
-            out.innovation[nu_at + row] = innovation.nu[i];
-            for (j, column) in (0..d).filter(there).enumerate() {
-                out.innovation_cov[cov_at + row * d + column] = innovation.cov(i, j);
-            }
-        }
+        scatter(&innovation, &self.present, &mut out.innovation[nu_at..], &mut out.innovation_cov[cov_at..]);
         let dof = innovation.nu.len();
         out.nis_dof.push(dof);
         out.nis.push(if dof == 0 { f64::NAN } else { innovation.nis });
@@ -191,6 +182,7 @@ pub(super) fn push<X: Over<M>, M>(filter: &OwnFilter<X, M>, mean: &mut Vec<f64>,
 pub(super) fn put<F: Form>(out: &mut Estimates, row: usize, belief: &Belief<f64>) {
     let n = belief.mean.len();
     out.mean[row * n..(row + 1) * n].copy_from_slice(belief.mean);
+    out.factor[row * n * n..(row + 1) * n * n].copy_from_slice(belief.factor);
     let cov = &mut out.cov[row * n * n..(row + 1) * n * n];
     if F::SQUARE_ROOT {
         crate::kernels::square(cov, n, belief.factor, n, n);

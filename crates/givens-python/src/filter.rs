@@ -1,0 +1,293 @@
+//! A filter that is stepped by hand.
+
+use givens::filter::{Snapshot, StepError};
+use givens::ode::Work;
+use givens::registry::{AnyFilter, Choice as Chosen};
+use numpy::{PyArrayDyn, PyReadonlyArrayDyn};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use self_cell::self_cell;
+
+use crate::choice::Choice;
+use crate::errors::{Input, Result};
+use crate::failure::{At, noted, refusal};
+use crate::model::{Model, Moves};
+use crate::numbers::{frozen, numbers, shaped};
+use crate::rows::{belief, finite};
+use crate::watch::detached;
+
+type Numbers<'py> = PyReadonlyArrayDyn<'py, f64>;
+type Array<'py> = Bound<'py, PyArrayDyn<f64>>;
+
+self_cell!(
+    /// A filter and the model that it steps.
+    struct Stepper {
+        owner: Box<Model>,
+        #[covariant]
+        dependent: AnyFilter,
+    }
+);
+
+impl Stepper {
+    fn begin(
+        model: &Model,
+        start: impl for<'m> FnOnce(&'m Model) -> core::result::Result<AnyFilter<'m>, StepError>,
+    ) -> core::result::Result<Self, StepError> {
+        Self::try_new(Box::new(model.clone()), |model| start(model))
+    }
+}
+
+/// What the last measurement said.
+#[derive(Clone, Debug)]
+struct Learnt {
+    innovation: Vec<f64>,
+    innovation_cov: Vec<f64>,
+    nis: f64,
+    nis_dof: usize,
+    log_likelihood: f64,
+}
+
+impl Learnt {
+    fn nothing(d: usize) -> Self {
+        let (innovation, innovation_cov) = (vec![f64::NAN; d], vec![f64::NAN; d * d]);
+        Self { innovation, innovation_cov, nis: f64::NAN, nis_dof: 0, log_likelihood: 0.0 }
+    }
+
+    fn of(filter: &AnyFilter<'_>) -> Self {
+        let (innovation, innovation_cov) = filter.whole_innovation();
+        let (nis, nis_dof, log_likelihood) = (filter.nis(), filter.dof(), filter.log_likelihood());
+        Self { innovation, innovation_cov, nis, nis_dof, log_likelihood }
+    }
+}
+
+/// A filter that is stepped by hand; see the stub.
+#[pyclass(module = "givens._native")]
+pub struct Filter {
+    stepper: Stepper,
+    choice: Chosen,
+    learnt: Learnt,
+}
+
+impl Filter {
+    fn model(&self) -> &Model {
+        self.stepper.borrow_owner()
+    }
+
+    fn filter(&self) -> &AnyFilter<'_> {
+        self.stepper.borrow_dependent()
+    }
+
+    /// Begins without the interpreter.
+    fn begin(
+        py: Python<'_>,
+        model: &Model,
+        choice: Chosen,
+        start: impl for<'m> FnOnce(&'m Model) -> core::result::Result<AnyFilter<'m>, StepError> + Send,
+    ) -> Result<Self> {
+        let (begun, raised) = detached(py, || Stepper::begin(model, start));
+        match (raised, begun) {
+            (Some(raised), _) => Err(raised.into()),
+            (None, Err(error)) => Err(refusal(py, model, Some(&choice), &error, At::default())),
+            (None, Ok(stepper)) => Ok(Self { stepper, choice, learnt: Learnt::nothing(model.measures()) }),
+        }
+    }
+
+    /// Takes a step without the interpreter.
+    fn step(
+        &mut self,
+        py: Python<'_>,
+        step: impl FnOnce(&mut AnyFilter<'_>) -> core::result::Result<(), StepError> + Send,
+    ) -> Result<()> {
+        let stepper = &mut self.stepper;
+        let (done, raised) = detached(py, || stepper.with_dependent_mut(|_, filter| step(filter)));
+        match (raised, done) {
+            (None, Ok(())) => Ok(()),
+            (Some(raised), done) => Err(noted(py, raised, None, done.err().as_ref()).into()),
+            (None, Err(error)) => {
+                let at = At { row: None, mean: self.filter().mean() };
+                Err(refusal(py, self.model(), Some(&self.choice), &error, at))
+            }
+        }
+    }
+}
+
+#[pymethods]
+impl Filter {
+    /// Starts from a belief at `t0`.
+    #[staticmethod]
+    #[pyo3(signature = (model, choice, mean, cov, t0))]
+    fn start(
+        py: Python<'_>,
+        model: &Model,
+        choice: &Choice,
+        mean: Numbers<'_>,
+        cov: Numbers<'_>,
+        t0: f64,
+    ) -> Result<Self> {
+        let choice = choice.0;
+        model.serves(&choice)?;
+        finite("t0", t0)?;
+        let prior = belief(model, &mean, &cov)?;
+        Self::begin(py, model, choice, |model| match &model.moves {
+            Moves::Discrete(moves) => choice.start(moves, &model.sensing, t0, &prior),
+            Moves::Continuous(moves) => choice.start_continuous(moves, &model.sensing, t0, &prior),
+        })
+    }
+
+    /// Starts where another one was when its snapshot was taken.
+    #[staticmethod]
+    fn resume(py: Python<'_>, model: &Model, choice: &Choice, snapshot: &Bound<'_, PyDict>) -> Result<Self> {
+        let choice = choice.0;
+        model.serves(&choice)?;
+        let (from, learnt) = read(model, snapshot)?;
+        let filter = Self::begin(py, model, choice, |model| match &model.moves {
+            Moves::Discrete(moves) => choice.resume(moves, &model.sensing, &from),
+            Moves::Continuous(moves) => choice.resume_continuous(moves, &model.sensing, &from),
+        })?;
+        Ok(Self { learnt, ..filter })
+    }
+
+    /// Moves the belief to time `t`.
+    fn predict(&mut self, py: Python<'_>, t: f64) -> Result<()> {
+        finite("t", t)?;
+        self.step(py, |filter| filter.predict(t))
+    }
+
+    /// Teaches the belief a measurement of all sensors, length d; NaN where a component is missing.
+    fn update(&mut self, py: Python<'_>, z: Numbers<'_>) -> Result<()> {
+        let z = shaped("z", &z, &[self.model().measures()])?;
+        if let Some(i) = z.iter().position(|z| z.is_infinite()) {
+            let name = self.model().known.measures.get(i);
+            let message = format!("measure `{}` is infinite", name.map_or("", String::as_str));
+            return Err(Input::new("z", message).of(name).help("a missing component is NaN").into());
+        }
+        self.learnt = Learnt::nothing(z.len());
+        self.step(py, |filter| filter.update(&z))?;
+        self.learnt = Learnt::of(self.filter());
+        Ok(())
+    }
+
+    /// Sets the controls, which hold until they are set again.
+    fn set_controls(&mut self, py: Python<'_>, u: Numbers<'_>) -> Result<()> {
+        let u = shaped("u", &u, &[self.model().controls()])?;
+        if let Some(i) = u.iter().position(|u| !u.is_finite()) {
+            return Err(Input::new("u", format!("control {i} is {}, not a finite number", u[i])).into());
+        }
+        self.step(py, |filter| filter.set_controls(&u))
+    }
+
+    #[getter]
+    fn time(&self) -> f64 {
+        self.filter().time()
+    }
+
+    #[getter]
+    fn mean<'py>(&self, py: Python<'py>) -> PyResult<Array<'py>> {
+        frozen(py, self.filter().mean().to_vec(), &[self.filter().states()])
+    }
+
+    #[getter]
+    fn factor<'py>(&self, py: Python<'py>) -> PyResult<Array<'py>> {
+        let n = self.filter().states();
+        frozen(py, self.filter().factor().to_vec(), &[n, n])
+    }
+
+    #[getter]
+    fn cov<'py>(&self, py: Python<'py>) -> PyResult<Array<'py>> {
+        let n = self.filter().states();
+        frozen(py, self.filter().cov(), &[n, n])
+    }
+
+    #[getter]
+    fn innovation<'py>(&self, py: Python<'py>) -> PyResult<Array<'py>> {
+        frozen(py, self.learnt.innovation.clone(), &[self.filter().measures()])
+    }
+
+    #[getter]
+    fn innovation_cov<'py>(&self, py: Python<'py>) -> PyResult<Array<'py>> {
+        let d = self.filter().measures();
+        frozen(py, self.learnt.innovation_cov.clone(), &[d, d])
+    }
+
+    #[getter]
+    fn nis(&self) -> f64 {
+        self.learnt.nis
+    }
+
+    #[getter]
+    fn nis_dof(&self) -> usize {
+        self.learnt.nis_dof
+    }
+
+    #[getter]
+    fn log_likelihood(&self) -> f64 {
+        self.learnt.log_likelihood
+    }
+
+    /// All that it carries, as plain data.
+    fn snapshot<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let (carried, n) = (self.filter().snapshot(), self.filter().states());
+        let square = |values: Vec<f64>| match values.len() {
+            0 => frozen(py, values, &[0, 0]),
+            _ => frozen(py, values, &[n, n]),
+        };
+        let flat = |values: Vec<f64>| {
+            let len = values.len();
+            frozen(py, values, &[len])
+        };
+        let all = PyDict::new(py);
+        all.set_item("time", carried.time)?;
+        all.set_item("step", carried.step)?;
+        all.set_item("mean", flat(carried.mean)?)?;
+        all.set_item("factor", square(carried.factor)?)?;
+        all.set_item("cov", square(carried.cov)?)?;
+        all.set_item("moved", square(carried.moved)?)?;
+        all.set_item("floor", flat(carried.floor)?)?;
+        all.set_item("controls", carried.controls.map(flat).transpose()?)?;
+        all.set_item("parameters", flat(carried.parameters)?)?;
+        let Work { calls, jacobians, accepted, rejected } = carried.work;
+        all.set_item("work", (calls, jacobians, accepted, rejected))?;
+        all.set_item("innovation", self.innovation(py)?)?;
+        all.set_item("innovation_cov", self.innovation_cov(py)?)?;
+        all.set_item("nis", self.learnt.nis)?;
+        all.set_item("nis_dof", self.learnt.nis_dof)?;
+        all.set_item("log_likelihood", self.learnt.log_likelihood)?;
+        Ok(all)
+    }
+}
+
+/// A snapshot from its dict.
+fn read(model: &Model, snapshot: &Bound<'_, PyDict>) -> Result<(Snapshot, Learnt)> {
+    let item = |key: &str| -> Result<Bound<'_, PyAny>> {
+        let missing = || Input::new("snapshot", format!("the snapshot has no `{key}`"));
+        Ok(snapshot.get_item(key)?.ok_or_else(missing)?)
+    };
+    let array = |key: &str| -> Result<Vec<f64>> {
+        Ok(numbers(&item(key)?.extract::<Numbers<'_>>().map_err(PyErr::from)?))
+    };
+    let (d, controls) = (model.measures(), item("controls")?);
+    let (calls, jacobians, accepted, rejected) = item("work")?.extract()?;
+    let carried = Snapshot {
+        time: item("time")?.extract()?,
+        step: item("step")?.extract()?,
+        mean: array("mean")?,
+        factor: array("factor")?,
+        cov: array("cov")?,
+        moved: array("moved")?,
+        floor: array("floor")?,
+        controls: if controls.is_none() { None } else { Some(array("controls")?) },
+        parameters: array("parameters")?,
+        work: Work { calls, jacobians, accepted, rejected },
+    };
+    let of = |key: &'static str, shape: &[usize]| -> Result<Vec<f64>> {
+        shaped(key, &item(key)?.extract::<Numbers<'_>>().map_err(PyErr::from)?, shape)
+    };
+    let learnt = Learnt {
+        innovation: of("innovation", &[d])?,
+        innovation_cov: of("innovation_cov", &[d, d])?,
+        nis: item("nis")?.extract()?,
+        nis_dof: item("nis_dof")?.extract()?,
+        log_likelihood: item("log_likelihood")?.extract()?,
+    };
+    Ok((carried, learnt))
+}

@@ -1,0 +1,116 @@
+//! From the words of a choice to types: each filter is compiled once for all rules of points and all time updates of a kind
+//! of model, whatever is done with it.
+
+use super::choice::Choice;
+use super::runtime::{AnyPoints, Parts};
+use super::time::{AnyTime, LEVEL_SET_IN_COVARIANCE};
+use super::words::{FormName, Kind, RuleName, TimeName};
+use crate::filter::predict::{EulerMaruyama, ItoTaylor, LevelSet, MomentOde, OneTransition, TimeUpdate};
+use crate::filter::{Covariance, Fault, Over, SquareRoot};
+use crate::model::{Sde, Transition};
+use crate::rule::{Cubature3, Cubature5, Rule, RuleError, Taylor};
+
+/// What is done with a method, once its parts are types.
+pub(super) trait Job<M> {
+    /// What comes of it.
+    type Done;
+    fn with<X: Over<M> + Send + Sync + 'static>(self, method: X) -> Self::Done;
+}
+
+impl Choice {
+    /// What is wrong with the options for a model of `states` states, if anything.
+    ///
+    /// # Errors
+    /// The option and its range.
+    pub fn check(&self, states: usize) -> Result<(), RuleError> {
+        if self.kind() == Kind::Continuous {
+            self.integrator.check()?;
+        }
+        match self.rule {
+            RuleName::CentralDifference => self.central_difference.check(states),
+            RuleName::Taylor => Taylor.check(states),
+            _ => Rule::check(&self.points(), states),
+        }
+    }
+
+    /// Whether the time update serves this continuous model.
+    ///
+    /// # Errors
+    /// What of the model, or of the options, it cannot serve.
+    pub fn check_continuous<M: Sde>(&self, model: &M) -> Result<(), Fault> {
+        match self.time() {
+            None => Err(NOT_DISCRETE),
+            Some(time) => time.check(model),
+        }
+    }
+
+    fn points(&self) -> AnyPoints {
+        match self.rule {
+            RuleName::Cubature5 => AnyPoints::Cubature5(Cubature5),
+            RuleName::Unscented => AnyPoints::Unscented(self.unscented),
+            RuleName::GaussHermite => AnyPoints::GaussHermite(self.gauss_hermite),
+            _ => AnyPoints::Cubature3(Cubature3),
+        }
+    }
+
+    /// The time update of a continuous method.
+    fn time(&self) -> Option<AnyTime> {
+        let steps = self.integrator.steps;
+        match self.time_update {
+            TimeName::Transition => None,
+            TimeName::ItoTaylor => Some(AnyTime::ItoTaylor(ItoTaylor { variant: self.variant, steps })),
+            TimeName::EulerMaruyama => Some(AnyTime::EulerMaruyama(EulerMaruyama { steps })),
+            TimeName::MomentOde => Some(AnyTime::MomentOde(MomentOde { integrator: self.integrator })),
+            TimeName::LevelSet => Some(AnyTime::LevelSet(LevelSet {
+                velocity: self.velocity,
+                gauge: self.gauge,
+                root: self.root,
+                integrator: self.integrator,
+            })),
+        }
+    }
+
+    /// Does the job with a discrete method; a continuous one is refused.
+    pub(super) fn discrete<M: Transition, J: Job<M>>(&self, job: J) -> Result<J::Done, Fault> {
+        match self.time_update {
+            TimeName::Transition => Ok(self.over(OneTransition, job)),
+            _ => Err(NOT_CONTINUOUS),
+        }
+    }
+
+    /// Does the job with a continuous method; a discrete one is refused.
+    pub(super) fn continuous<M: Sde, J: Job<M>>(&self, job: J) -> Result<J::Done, Fault> {
+        match self.time() {
+            None => Err(NOT_DISCRETE),
+            Some(AnyTime::LevelSet(_)) if self.form == FormName::Covariance => Err(LEVEL_SET_IN_COVARIANCE),
+            Some(time) => Ok(self.over(time, job)),
+        }
+    }
+
+    fn over<M, J: Job<M>, U>(&self, time: U, job: J) -> J::Done
+    where
+        U: TimeUpdate<M> + Send + Sync + 'static,
+    {
+        match self.rule {
+            RuleName::CentralDifference => self.with(self.central_difference, time, job),
+            RuleName::Taylor => self.with(Taylor, time, job),
+            _ => self.with(self.points(), time, job),
+        }
+    }
+
+    fn with<M, J: Job<M>, R, U>(&self, rule: R, time: U, job: J) -> J::Done
+    where
+        R: Rule + Send + Sync + 'static,
+        U: TimeUpdate<M> + Send + Sync + 'static,
+    {
+        match self.form {
+            FormName::Covariance => job.with(Parts::<R, Covariance, U>::new(rule, self.block, time)),
+            FormName::SquareRoot => job.with(Parts::<R, SquareRoot, U>::new(rule, self.block, time)),
+        }
+    }
+}
+
+const NOT_CONTINUOUS: Fault =
+    Fault::Mismatch { why: "the method is a continuous-time one, and the model is discrete" };
+const NOT_DISCRETE: Fault =
+    Fault::Mismatch { why: "the method is a discrete-time one, and the model is continuous" };

@@ -14,34 +14,46 @@ A model is written in ordinary NumPy and runs natively, with exact derivatives:
 """
 
 from givens.batch import Batch
+from givens.comparison import Compared, Comparison, compare
 from givens.consistency import Consistency
 from givens.errors import GivensError, InputError, MethodError, ModelError, StepError, TraceError
 from givens.estimates import Estimates
 from givens.gaussian import Gaussian
 from givens.model_file import ModelFile, parse_model, read_model
+from givens.online import Filter
+from givens.registry import Method, methods
 from givens.running import filter, merge, smooth
 from givens.sde import Sde
 from givens.sensor import Sensor
+from givens.simulation import Simulated, simulate
 from givens.transition import Transition
 
 __all__ = [
     "Batch",
+    "Compared",
+    "Comparison",
     "Consistency",
     "Estimates",
+    "Filter",
     "Gaussian",
     "GivensError",
     "InputError",
+    "Method",
     "MethodError",
     "ModelError",
     "ModelFile",
     "Sde",
     "Sensor",
+    "Simulated",
     "StepError",
     "TraceError",
     "Transition",
+    "compare",
     "filter",
     "merge",
+    "methods",
     "parse_model",
     "read_model",
+    "simulate",
     "smooth",
 ]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -41,6 +41,8 @@ class Called:
     names: tuple[str, ...]
     #: Whether one call takes all points, x of shape (n, points).
     many: bool
+    #: Whether it is only called at one point.
+    single: bool = False
 
     def native(self, places: Mapping[str, slice]) -> Function:
         """As the native half takes it."""
@@ -59,7 +61,9 @@ class _Caller:
         for name, place in self.places.items():
             shape = self.called.parameters[name].shape
             named[name] = p[place].reshape(shape) if shape else float(p[place][0])
-        if self.called.many or x.shape[-1] == 0:
+        if self.called.single:
+            return self.once(t, dt, x[:, 0], u, named)
+        if self.called.many:
             return self.once(t, dt, x, u, named)
         points = [self.once(t, dt, x[:, k], u, named) for k in range(x.shape[1])]
         return np.stack(points, axis=-1)
@@ -82,8 +86,8 @@ def called(request: Request, function: Callable[..., Any]) -> Called:
         return Called(function, request.required, given, None, request.names, many=False)
     arguments = read_arguments(request.argument, function, request.required, request.optional, request.parameters)
     one = Called(function, arguments.positions, arguments.parameters, None, request.names, many=False)
-    if "x" not in arguments.positions:
-        return one
+    if "x" not in arguments.positions or request.argument == "jacobian":
+        return replace(one, single=True)
     many = Called(function, arguments.positions, arguments.parameters, None, request.names, many=True)
     return many if _agree(one, many, request) else one
 

@@ -46,6 +46,7 @@ def changed(parameters: Mapping[str, Array], values: Mapping[str, object]) -> di
                 f"`with_params`: `{name}` has shape {array.shape}, not {new[name].shape}",
                 argument="with_params",
                 component=name,
+                remedy="give as many numbers as it had",
             )
         new[name] = array
     return new

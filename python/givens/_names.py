@@ -38,9 +38,10 @@ def known_name(argument: str, name: object, among: Sequence[str], what: str) -> 
     from difflib import get_close_matches
 
     close = get_close_matches(str(name), among, 1)
-    remedy = (
-        f"did you mean `{close[0]}`?" if close else f"there are {listed(among)}" if among else f"there is no {what}"
-    )
+    if close:
+        remedy = f"did you mean `{close[0]}`?"
+    else:
+        remedy = f"there {'is' if len(among) == 1 else 'are'} {listed(among)}" if among else "there is none"
     raise InputError(
         f"`{argument}` names `{name}`, which is no {what}", argument=argument, component=str(name), remedy=remedy
     )

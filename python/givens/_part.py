@@ -51,6 +51,10 @@ class Request:
         if is_symbolic(given):
             given = of_sympy(self.argument, given, self.required, self.states, self.controls, self.parameters)
         if not is_function(given):
+            if "x" in self.required:
+                said = f"`{self.argument}` is not a function: {given!r}"
+                remedy = f"write def {self.argument}({', '.join(self.required)}): return […]"
+                raise InputError(said, argument=self.argument, remedy=remedy)
             return Part(self.argument, _numbers(self.argument, given))
         if self.may_call and (hasattr(given, "address") or not self.trace):
             return Part(self.argument, called=called(self, given))

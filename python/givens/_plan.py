@@ -13,6 +13,7 @@ from givens import _native
 from givens._arrays import Array, shape_error
 from givens._clock import Clock, clock_of
 from givens._dynamics import Parametric
+from givens._given import Given, each_of, parameters_by_run, split
 from givens._join import Joined, join, sensors_of
 from givens._rows import controls_of, measured, noise_shapes, with_noise
 from givens._tables import is_table, rows_by_track
@@ -20,7 +21,7 @@ from givens.errors import InputError
 from givens.gaussian import Gaussian
 from givens.model_file import ModelFile
 
-__all__ = ["Track", "plan", "read_prior"]
+__all__ = ["Track", "choose", "plan", "read_prior", "with_parameters"]
 
 
 @dataclass(frozen=True)
@@ -55,19 +56,6 @@ class Track:
         )
 
 
-@dataclass(frozen=True)
-class _Given:
-    """One track as it was given."""
-
-    t: Any
-    z: Any
-    u: Any = None
-    noise: Any = None
-    prior: Any = None
-    parameters: Mapping[str, Any] | None = None
-    id: Any = None
-
-
 def plan(
     model: Any,
     sensors: Any,
@@ -84,13 +72,13 @@ def plan(
 ) -> tuple[list[Track], bool]:
     """The tracks to run, and whether they are a batch; everything is checked."""
     plain = join(model, sensors)
-    choice = _choice(model, plain, method, options)
+    choice = choose(model, plain, method, options)
     if isinstance(t, (str, os.PathLike)):
         return _of_file(model, plain, choice, os.fspath(t), prior, t0)
     widths = {name: place.stop - place.start for name, place in plain.sensors.items()}
     if z is None and is_table(t):
         rows = rows_by_track(plain, t)
-        given = [_Given(track["time"], track["z"], track["u"] if u is None else u, id=track["id"]) for track in rows]
+        given = [Given(track["time"], track["z"], track["u"] if u is None else u, id=track["id"]) for track in rows]
         batch = len(given) > 1 or given[0].id is not None
         if noise is not None and batch:
             raise InputError(
@@ -102,15 +90,15 @@ def plan(
             "`z` is missing", argument="z", remedy="give times and measurements, or a table with named columns"
         )
     else:
-        given, batch = _split(plain, t, z, u, noise)
-    priors = _each("prior", prior, len(given), batch, Gaussian)
-    values = _parameters(params, len(given))
+        given, batch = split(plain, t, z, u, noise)
+    priors = each_of("prior", prior, len(given), batch, Gaussian)
+    values = parameters_by_run(params, len(given))
     tracks: list[Track] = []
     for k, track in enumerate(given):
         joined = plain
         shapes = noise_shapes(track.noise, widths)
         if shapes or values:
-            joined = join(*_with(model, sensors, values[k]) if values else (model, sensors), shapes)
+            joined = join(*with_parameters(model, sensors, values[k]) if values else (model, sensors), shapes)
         track = replace(track, prior=priors[k])
         try:
             tracks.append(_track(model, joined, choice, track, t0))
@@ -121,7 +109,8 @@ def plan(
     return tracks, batch
 
 
-def _choice(model: Any, joined: Joined, method: str | None, options: Mapping[str, Any]) -> _native.Choice:
+def choose(model: Any, joined: Joined, method: str | None, options: Mapping[str, Any]) -> _native.Choice:
+    """The method with its options; those of a model file hold where no other method is named."""
     if isinstance(model, ModelFile):
         named = method is not None and method != model.method
         options = {**({} if named else model.options), **options}
@@ -131,89 +120,10 @@ def _choice(model: Any, joined: Joined, method: str | None, options: Mapping[str
     return choice
 
 
-def _split(joined: Joined, t: Any, z: Any, u: Any, noise: Any) -> tuple[list[_Given], bool]:
-    """One track, or several: an array (runs, rows, d), or a list of arrays or tables."""
-    if isinstance(z, Mapping):
-        several = [np.ndim(value) for value in z.values()] == [3] * len(z) and len(z) > 0
-        runs = len(next(iter(z.values()))) if several else 0
-        each: list[Any] = [{name: value[k] for name, value in z.items()} for k in range(runs)]
-    elif isinstance(z, (list, tuple)) and len(z) and (isinstance(z[0], Mapping) or np.ndim(z[0]) == 2):
-        several, each = True, list(z)
-    else:
-        several = np.ndim(z) == 3 and np.shape(z)[2] == len(joined.measures)
-        each = list(np.asarray(z)) if several else []
-    if not several:
-        return [_Given(t, z, u, noise)], False
-    runs = len(each)
-    ragged = isinstance(t, (list, tuple)) and len(t) == runs and runs > 0 and np.ndim(t[0]) == 1
-    times = list(t) if ragged or np.ndim(t) == 2 else [t] * runs
-    if len(times) != runs:
-        raise InputError(
-            f"`t` has times of {len(times)} tracks, `z` measurements of {runs}",
-            argument="t",
-            remedy="give one list for each",
-        )
-    controls = _by_run("u", u, runs, 2)
-    noises = _noise_by_run(noise, runs)
-    return [_Given(times[k], each[k], controls[k], noises[k]) for k in range(runs)], True
-
-
-def _by_run(argument: str, given: Any, runs: int, own: int) -> list[Any]:
-    """One for each run, or the same for all: `own` dimensions are those of one run."""
-    if given is None or isinstance(given, Mapping):
-        return [given] * runs
-    several = (isinstance(given, (list, tuple)) and len(given) == runs and np.ndim(given[0]) == own) or (
-        not isinstance(given, (list, tuple)) and np.ndim(given) == own + 1
-    )
-    if several and len(given) != runs:
-        raise InputError(f"`{argument}` is for {len(given)} tracks, `z` for {runs}", argument=argument)
-    return list(given) if several else [given] * runs
-
-
-def _noise_by_run(noise: Any, runs: int) -> list[Any]:
-    if noise is None:
-        return [None] * runs
-    table = noise if isinstance(noise, Mapping) else {None: noise}
-    split = {name: list(value) if len(value) == runs else [value] * runs for name, value in table.items()}
-    if None in split:
-        return split[None]
-    return [{name: values[k] for name, values in split.items()} for k in range(runs)]
-
-
-def _each(argument: str, given: Any, runs: int, batch: bool, kind: type) -> list[Any]:
-    if not isinstance(given, (list, tuple)):
-        return [given] * runs
-    if not batch or len(given) != runs or not all(isinstance(one, kind) for one in given):
-        what = f"one for each of {runs} tracks" if batch else f"one {kind.__name__}"
-        raise InputError(
-            f"`{argument}` is a list of {len(given)}, not {what}",
-            argument=argument,
-            remedy="write gv.Gaussian(mean, cov)",
-        )
-    return list(given)
-
-
-def _parameters(params: Mapping[str, Any] | None, runs: int) -> list[dict[str, Any]]:
-    """The values of each track: numbers are for all, arrays hold one for each."""
-    if not params:
-        return []
-    values: list[dict[str, Any]] = [{} for _ in range(runs)]
-    for name, given in params.items():
-        shape = np.shape(given)
-        if shape and shape[0] != runs:
-            raise InputError(
-                f"`params`: `{name}` has {shape[0]} values for {runs} tracks",
-                argument="params",
-                component=name,
-                remedy="give one number, or one for each track",
-            )
-        for k in range(runs):
-            values[k][name] = given[k] if shape else given
-    return values
-
-
-def _with(model: Any, sensors: Any, values: Mapping[str, Any]) -> tuple[Any, Any]:
+def with_parameters(model: Any, sensors: Any, values: Mapping[str, Any]) -> tuple[Any, Any]:
     """Model and sensors with these parameters, wherever one has one of that name."""
+    if not values:
+        return model, sensors
     if isinstance(model, ModelFile):
         return model.with_params(**values), sensors
     owners: list[Parametric] = [model, *sensors_of(sensors)]
@@ -227,7 +137,7 @@ def _with(model: Any, sensors: Any, values: Mapping[str, Any]) -> tuple[Any, Any
     return new[0], new[1:]
 
 
-def _track(model: Any, joined: Joined, choice: _native.Choice, given: _Given, t0: Any) -> Track:
+def _track(model: Any, joined: Joined, choice: _native.Choice, given: Given, t0: Any) -> Track:
     clock = clock_of(given.t, t0)
     time = clock.seconds("t", given.t)
     if time.ndim != 1:
@@ -270,8 +180,9 @@ def read_prior(model: Any, prior: Any, states: Sequence[str]) -> tuple[Array, Ar
         raise InputError(f"`prior` is {said}", argument="prior", remedy="write prior=gv.Gaussian(mean, cov)")
     if len(prior) != len(states):
         raise InputError(
-            f"`prior` is a belief about {len(prior)} states, but the model has {len(states)}: {', '.join(states)}",
+            f"`prior` has {len(prior)} components, but the model has the states {', '.join(states)}",
             argument="prior",
+            remedy="give one mean for each state, in their order",
         )
     return prior.mean, prior.cov
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -12,14 +11,13 @@ import numpy.typing as npt
 from givens import _native
 from givens._arrays import Array, frozen
 from givens._clock import Clock
-from givens._factor import lower_factor
 from givens._plan import Track
 from givens.consistency import Consistency, consistency_of
 from givens.errors import InputError, StepError
 
 __all__ = ["Estimates", "Goal", "step_error"]
 
-_ROWS = ("mean", "cov", "predicted_mean", "predicted_cov", "filtered_mean", "filtered_cov")
+_ROWS = ("mean", "cov", "factor", "predicted_mean", "predicted_cov", "filtered_mean", "filtered_cov")
 _MEASURED = ("innovation", "innovation_cov", "nis")
 
 
@@ -44,6 +42,10 @@ class Estimates:
         The same as numbers; of dates, since `t0` or the first row.
     mean, cov : ndarray, shapes (rows, n) and (rows, n, n)
         The estimates: filtered ones of `filter`, smoothed ones of `smooth`.
+    factor : ndarray, shape (rows, n, n)
+        Lower triangular roots of `cov`, with diagonals from zero up.
+    std : ndarray, shape (rows, n)
+        Standard deviations.
     filtered_mean, filtered_cov : ndarray
         Given the measurements up to the row.
     predicted_mean, predicted_cov : ndarray
@@ -81,6 +83,7 @@ class Estimates:
     seconds: Array
     mean: Array
     cov: Array
+    factor: Array
     filtered_mean: Array
     filtered_cov: Array
     predicted_mean: Array
@@ -132,11 +135,6 @@ class Estimates:
     def std(self) -> Array:
         """Standard deviations of the states, shape (rows, n)."""
         return frozen(np.sqrt(np.maximum(np.diagonal(self.cov, axis1=1, axis2=2), 0.0)))
-
-    @cached_property
-    def factor(self) -> Array:
-        """Lower triangular roots of `cov`, shape (rows, n, n), with diagonals from zero up."""
-        return frozen(lower_factor(self.cov)[0])
 
     @property
     def total_log_likelihood(self) -> float:

@@ -74,6 +74,15 @@ class Gaussian:
         object.__setattr__(self, "_mean", frozen(middle))
         object.__setattr__(self, "_cov", frozen(matrix))
 
+    @classmethod
+    def _known(cls, mean: Array, cov: Array, factor: Array) -> Gaussian:
+        """One that a filter has made, which needs no check."""
+        self = object.__new__(cls)
+        object.__setattr__(self, "_mean", mean)
+        object.__setattr__(self, "_cov", cov)
+        self.__dict__["_lower"] = factor
+        return self
+
     def __setattr__(self, name: str, value: object) -> None:
         raise AttributeError("a Gaussian cannot be changed; make another one")
 

@@ -3,21 +3,22 @@
 from __future__ import annotations
 
 import math
+import pickle
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Self
 
 import numpy as np
 import numpy.typing as npt
 
-from givens._arrays import Array, numbers, shape_error
-from givens._dynamics import Parametric, noise_request, parameters_of
-from givens._names import known_name, listed, names_of, ordered
+from givens._arrays import shape_error
+from givens._dynamics import Parametric, noise_request, read_jacobian
+from givens._measuring import near, periods, spread
+from givens._measuring import parameters as parameters_known
+from givens._names import listed, names_of
 from givens._part import Part, Request, is_function
 from givens._symbolic import is_symbolic
-from givens._trace.arguments import parameter_value, read_arguments
 from givens._trace.place import of_function
 from givens.errors import InputError
-from givens.transition import check_symmetric
 
 __all__ = ["Sensor"]
 
@@ -97,13 +98,13 @@ class Sensor(Parametric):
                 f"the sensor `{name}` has {said}",
                 argument="std",
                 component=name,
-                remedy="give the standard deviations of its errors, std=[…], or their covariance, cov=[[…]]",
+                remedy="give the standard deviations of its errors, std=[…], or else their covariance, cov=[[…]]",
             )
         if not (is_function(h) or is_symbolic(h)):
             raise InputError(f"`h` is not a function: {h!r}", argument="h", remedy="write def h(t, x): return […]")
         noise = "std" if cov is None else "cov"
-        spread = _spread(noise, std if cov is None else cov, columns)
-        given = {"h": h, noise: spread, "jacobian": jacobian, "parameters": dict(parameters or {})}
+        errors = spread(noise, std if cov is None else cov, columns)
+        given = {"h": h, noise: errors, "jacobian": jacobian, "parameters": dict(parameters or {})}
         self._put(
             name=str(name),
             measures=columns,
@@ -111,9 +112,9 @@ class Sensor(Parametric):
             check_at=check_at,
             _given=given,
             _noise=noise,
-            _periods=_periods(angles, columns),
+            _periods=periods(angles, columns),
             _traces={},
-            _parameters=_parameters(given, noise),
+            _parameters=parameters_known(given, noise),
         )
 
     @property
@@ -139,7 +140,7 @@ class Sensor(Parametric):
             )
         u = ("u",) if controls else ()
         common = {"states": states, "controls": controls, "parameters": self._given["parameters"]}
-        common |= {"trace": self.trace, "check_at": _near(self.check_at, states)}
+        common |= {"trace": self.trace, "check_at": near(self.check_at, states)}
         request = Request("h", ("t", "x"), u, self.measures, **common)
         parts = {"h": request.read(self._given["h"])}
         d, shape = len(self.measures), parts["h"].shape
@@ -155,8 +156,6 @@ class Sensor(Parametric):
             )
         parts[self._noise] = self._noise_part(u, common)
         if self._given["jacobian"] is not None:
-            from givens._dynamics import read_jacobian
-
             jacobian = read_jacobian(self._given["jacobian"], parts["h"], common, ("t", "x"))
             assert jacobian is not None
             parts["jacobian"] = jacobian
@@ -197,6 +196,16 @@ class Sensor(Parametric):
         fields = {name: getattr(self, name) for cls in type(self).__mro__ for name in getattr(cls, "__slots__", ())}
         if self._traces and all(part.called is None for parts in self._traces.values() for part in parts.values()):
             fields["_given"] = {"parameters": self._given["parameters"]}
+            return fields
+        try:
+            pickle.dumps(self._given)
+        except Exception as error:
+            raise InputError(
+                f"the sensor `{self.name}` cannot be pickled yet: {error}",
+                argument="h",
+                component=self.name,
+                remedy="use it once, which traces it, or write its functions with `def` in a module",
+            ) from None
         return fields
 
     def __setstate__(self, fields: dict[str, Any]) -> None:
@@ -217,75 +226,3 @@ class Sensor(Parametric):
             ("angles", f"[{', '.join(angles)}]" if angles else ""),
             ("parameters", f"({self._shown_parameters()})" if self._parameters else ""),
         ]
-
-
-def _spread(noise: str, given: Any, columns: tuple[str, ...]) -> Any:
-    """Numbers are checked when the sensor is made; functions when it is traced."""
-    if is_function(given) or is_symbolic(given):
-        return given
-    d = len(columns)
-    if isinstance(given, Mapping) and noise == "std":
-        given = _by_name(given, columns)
-    array = numbers(noise, given)
-    wanted = (d,) if noise == "std" else (d, d)
-    array = array.reshape(wanted) if d == 1 and array.size == 1 else array
-    if array.shape != wanted:
-        flat = noise == "cov" and array.shape == (d,)
-        remedy = "write std=… for standard deviations, or cov=np.diag(…)" if flat else None
-        raise shape_error(noise, array.shape, f"{wanted} for the measures {', '.join(columns)}", remedy)
-    wrong = ~np.isfinite(array) if noise == "cov" else ~(np.isfinite(array) & (array >= 0))
-    if wrong.any():
-        at = np.argwhere(wrong)[0]
-        name = columns[int(at[0])]
-        raise InputError(
-            f"`{noise}` of `{name}` is {array[tuple(at)]}",
-            argument=noise,
-            component=name,
-            remedy="standard deviations are finite, from 0 up" if noise == "std" else "give finite numbers",
-        )
-    if noise == "cov":
-        check_symmetric("cov", Request("cov", ()).read(array))
-    return array
-
-
-def _by_name(given: Mapping[str, Any], columns: tuple[str, ...]) -> list[Any]:
-    entries = ordered("std", given, columns, "measure of this sensor")
-    for name, entry in zip(columns, entries, strict=True):
-        if entry is None:
-            raise InputError(
-                f"`std` has no entry `{name}`", argument="std", component=name, remedy="give one for each measure"
-            )
-    return entries
-
-
-def _periods(angles: Any, columns: tuple[str, ...]) -> tuple[float | None, ...]:
-    if not isinstance(angles, Mapping):
-        angles = dict.fromkeys(names_of("angles", angles, example='["bearing"]'), 2 * math.pi)
-    for name, period in angles.items():
-        known_name("angles", name, columns, "measure of this sensor")
-        if not (isinstance(period, (int, float)) and 0 < period < math.inf):
-            raise InputError(
-                f"`angles`: the period of `{name}` is {period!r}",
-                argument="angles",
-                component=name,
-                remedy="a period is longer than 0: 2π of radians, 360 of degrees",
-            )
-    return tuple(float(angles[name]) if name in angles else None for name in columns)
-
-
-def _parameters(given: Mapping[str, Any], noise: str) -> dict[str, Array]:
-    """The parameters of its functions, which are known before they are traced."""
-    tables: list[Mapping[str, Array]] = []
-    for argument, required in (("h", ("t", "x")), (noise, ("t",))):
-        function = given[argument]
-        if callable(function):
-            tables.append(read_arguments(argument, function, required, ("u",), given["parameters"]).parameters)
-        elif is_symbolic(function) or hasattr(function, "address"):
-            tables.append({n: parameter_value(argument, n, v) for n, v in given["parameters"].items()})
-    return parameters_of(tables, given["parameters"])
-
-
-def _near(check_at: Any, states: tuple[str, ...]) -> Array | None:
-    from givens._arrays import vector
-
-    return None if check_at is None else vector("check_at", check_at, states)

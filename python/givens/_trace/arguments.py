@@ -39,14 +39,14 @@ def parameter_value(argument: str, name: str, value: object) -> npt.NDArray[np.f
         array = np.array(value, dtype=float)
     except (TypeError, ValueError):
         raise InputError(
-            f"{argument}: the parameter {name!r} is not a number: {value!r}",
+            f"`{argument}`: the parameter `{name}` is not a number: {value!r}",
             argument=argument,
             component=name,
             remedy="parameters are floats or arrays of floats; bind others with functools.partial",
         ) from None
     if np.isnan(array).any():
         raise InputError(
-            f"{argument}: the parameter {name!r} is NaN",
+            f"`{argument}`: the parameter `{name}` is NaN",
             argument=argument,
             component=name,
             remedy="give it a number, as a default or in parameters={…}",
@@ -58,7 +58,7 @@ def parameter_value(argument: str, name: str, value: object) -> npt.NDArray[np.f
 def _signature(argument: str, function: Callable[..., Any]) -> inspect.Signature:
     if not callable(function):
         raise InputError(
-            f"{argument} is not a function: {function!r}",
+            f"`{argument}` is not a function: {function!r}",
             argument=argument,
             remedy=f"write def {argument}(…): return […]",
         )
@@ -66,7 +66,7 @@ def _signature(argument: str, function: Callable[..., Any]) -> inspect.Signature
         return inspect.signature(function)
     except (TypeError, ValueError):
         raise InputError(
-            f"{argument}: the arguments of {function!r} cannot be read",
+            f"`{argument}`: the arguments of {function!r} cannot be read",
             argument=argument,
             remedy="wrap it: lambda t, x: function(t, x)",
         ) from None
@@ -97,7 +97,7 @@ def read_arguments(
     signature = _signature(argument, function)
     given = dict(given or {})
     bound = set(function.keywords) if isinstance(function, functools.partial) else set()
-    wanted = " and ".join(filter(None, [", ".join(required), f"perhaps {', '.join(optional)}" if optional else ""]))
+    wanted = ", ".join(required) + "".join(f"[, {name}]" for name in optional)
     positions: list[str] = []
     parameters: dict[str, npt.NDArray[np.float64]] = {}
     takes_all = False
@@ -115,7 +115,7 @@ def read_arguments(
             positions.append(name)
         else:
             raise InputError(
-                f"{argument}: {of_function(function).function} asks for {name!r}, which has no value",
+                f"`{argument}`: {of_function(function).function} asks for `{name}`, which has no value",
                 argument=argument,
                 component=name,
                 remedy=f"give it a default, {name}=…, or write parameters={{{name!r}: …}}",
@@ -125,9 +125,9 @@ def read_arguments(
     if not len(required) <= len(positions) <= len(required) + len(optional):
         remedy = f"write def {argument}({', '.join((*required, *optional))}, *, parameter=1.0)"
         if len(positions) > len(required) + len(optional) and "u" not in optional:
-            remedy += "; name the controls in controls=[…] if it takes them"
+            remedy += "; controls are named in controls=[…]"
         raise InputError(
-            f"{argument}: {of_function(function).function} takes {_listed(positions)}, but {wanted} are given to it",
+            f"`{argument}`: {of_function(function).function} takes {_listed(positions)}, but it is given ({wanted})",
             argument=argument,
             remedy=remedy,
         )
@@ -135,7 +135,7 @@ def read_arguments(
 
 
 def _listed(names: Sequence[str]) -> str:
-    return f"({', '.join(names)})" if names else "no argument"
+    return f"({', '.join(names)})" if names else "no arguments"
 
 
 def second_position(argument: str, function: Callable[..., Any]) -> str | None:

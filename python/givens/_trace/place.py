@@ -57,8 +57,13 @@ def of_function(function: object) -> Place:
     """The line where a function begins."""
     code = getattr(getattr(function, "__func__", function), "__code__", None)
     if isinstance(code, CodeType):
-        return Place(code.co_qualname, code.co_filename, code.co_firstlineno, None)
+        return Place(_name(code), code.co_filename, code.co_firstlineno, None)
     return Place(getattr(function, "__qualname__", None) or type(function).__name__)
+
+
+def _name(code: CodeType) -> str:
+    """Its name, with its class but without the function around it."""
+    return code.co_qualname.rpartition("<locals>.")[2]
 
 
 def _short(file: str) -> str:
@@ -69,4 +74,4 @@ def _short(file: str) -> str:
 
 def _place(code: CodeType, line: int) -> Place:
     source = linecache.getline(code.co_filename, line).strip() or None
-    return Place(code.co_qualname, code.co_filename, line, source)
+    return Place(_name(code), code.co_filename, line, source)

@@ -1,0 +1,183 @@
+"""Several methods over the same data."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from givens import _native
+from givens._arrays import Array, numbers
+from givens._names import known_name
+from givens.batch import Batch
+from givens.consistency import Consistency, consistency_of
+from givens.errors import InputError, StepError
+from givens.estimates import Estimates
+from givens.gaussian import Gaussian
+from givens.running import filter
+
+__all__ = ["Compared", "Comparison", "compare"]
+
+
+@dataclass(frozen=True, eq=False)
+class Compared:
+    """How one method fared.
+
+    Attributes
+    ----------
+    method : str
+    seconds_per_row : float
+        Of the filter alone, run once.
+    rows : int
+        Rows that it finished.
+    log_likelihood : float
+    consistency : Consistency
+    rmse : ndarray, shape (n,), or None
+        Of each state, against the truth.
+    nees : float or None
+        Mean NEES for each degree of freedom: 1 of a filter that is right.
+    failed : list of StepError
+    estimates : Estimates or Batch
+    """
+
+    method: str
+    seconds_per_row: float
+    rows: int
+    log_likelihood: float
+    consistency: Consistency
+    rmse: Array | None
+    nees: float | None
+    failed: list[StepError]
+    estimates: Estimates | Batch | None
+
+
+class Comparison(list[Compared]):
+    """Methods side by side, shown as a table."""
+
+    state: tuple[str, ...] = ()
+
+    def rows(self) -> list[dict[str, Any]]:
+        """The table, one dict for each method."""
+        table = []
+        for one in self:
+            row: dict[str, Any] = {"method": one.method, "rows": one.rows, "failed": len(one.failed)}
+            row |= {"log-likelihood": one.log_likelihood, "NIS/dof": one.consistency.ratio}
+            row |= {"verdict": one.consistency.verdict, "µs/row": 1e6 * one.seconds_per_row}
+            if one.rmse is not None:
+                row |= {f"{name} RMSE": value for name, value in zip(self.state, one.rmse, strict=True)}
+                row["NEES/dof"] = one.nees
+            table.append(row)
+        return table
+
+    def to_pandas(self) -> Any:
+        """The table."""
+        from givens._lazy import wanted
+
+        return wanted("pandas").DataFrame(self.rows()).set_index("method")
+
+    def _cells(self) -> list[list[str]]:
+        table = self.rows()
+        header = list(table[0]) if table else []
+        shown = [[f"{v:.4g}" if isinstance(v, float) else str(v) for v in row.values()] for row in table]
+        return [header, *shown]
+
+    def __repr__(self) -> str:
+        cells = self._cells()
+        widths = [max(map(len, column)) for column in zip(*cells, strict=True)]
+        first = [f"{line[0]:<{widths[0]}}" for line in cells] if widths else []
+        rest = ["  ".join(f"{c:>{w}}" for c, w in zip(line[1:], widths[1:], strict=True)) for line in cells]
+        return "\n".join(f"{name}  {others}" for name, others in zip(first, rest, strict=False))
+
+    def _repr_html_(self) -> str:
+        from html import escape
+
+        header, *body = self._cells()
+        head = "".join(f"<th>{escape(cell)}</th>" for cell in header)
+        rows = ("".join(f"<td>{escape(cell)}</td>" for cell in line) for line in body)
+        return f"<table><tr>{head}</tr>{''.join(f'<tr>{row}</tr>' for row in rows)}</table>"
+
+
+def compare(
+    model: Any,
+    sensors: Any,
+    t: Any,
+    z: Any = None,
+    *,
+    prior: Gaussian | Sequence[Gaussian] | None = None,
+    methods: Sequence[str],
+    truth: npt.ArrayLike | None = None,
+    options: Mapping[str, Mapping[str, Any]] | None = None,
+    **common: Any,
+) -> Comparison:
+    """Runs several filters over the same data.
+
+    Parameters
+    ----------
+    model, sensors, t, z, prior
+        As for `filter`.
+    methods : sequence of str
+        Their names.
+    truth : array_like, shape (rows, n), or (runs, rows, n), optional
+        True states, NaN where they are not known; gives RMSE and NEES.
+    options : mapping, optional
+        Options of single methods: ``{"sr-ukf": {"kappa": 0}}``.
+    **common
+        Other arguments of `filter`, and options of all methods.
+
+    Returns
+    -------
+    Comparison
+        One entry for each method; a method that fails says so there.
+
+    Examples
+    --------
+    >>> import givens as gv
+    >>> import numpy as np
+    >>> model = gv.Transition(lambda t, dt, x: np.sin(x), noise_cov=[[0.1]], state=["x"])
+    >>> sensor = gv.Sensor(lambda t, x: x**2, measures=["y"], std=[0.5])
+    >>> prior = gv.Gaussian([1.0], std=[0.5])
+    >>> drawn = gv.simulate(model, sensor, np.arange(50.0), prior=prior, seed=1)
+    >>> table = gv.compare(model, sensor, drawn.t, drawn.z, prior=prior, methods=["ekf", "sr-ckf"], truth=drawn.x)
+    >>> [(one.method, one.rows) for one in table]
+    [('ekf', 50), ('sr-ckf', 50)]
+    """
+    if isinstance(methods, str) or not list(methods):
+        raise InputError(f"`methods` is {methods!r}", argument="methods", remedy='write methods=["ekf", "sr-ckf"]')
+    for name in options or {}:
+        known_name("options", name, tuple(methods), "method among `methods`")
+    found = Comparison()
+    for name in methods:
+        own = dict((options or {}).get(name, {}))
+        begun = perf_counter()
+        try:
+            run: Estimates | Batch = filter(model, sensors, t, z, prior=prior, method=name, **{**common, **own})
+        except StepError as error:
+            run = error.finished
+        seconds = perf_counter() - begun
+        found.append(_compared(name, run, seconds, truth))
+        found.state = found[-1].estimates[0].state if isinstance(run, Batch) else run.state  # type: ignore[index]
+    return found
+
+
+def _compared(name: str, run: Estimates | Batch, seconds: float, truth: Any) -> Compared:
+    each = list(run) if isinstance(run, Batch) else [run]
+    rows = sum(map(len, each))
+    failed = [one.failed for one in each if one.failed is not None]
+    rmse, nees = (None, None) if truth is None else _accuracy(each, truth, isinstance(run, Batch))
+    total = float(sum(one.total_log_likelihood for one in each))
+    return Compared(name, seconds / max(rows, 1), rows, total, consistency_of(each), rmse, nees, failed, run)
+
+
+def _accuracy(each: Sequence[Estimates], truth: Any, batch: bool) -> tuple[Array, float]:
+    states = [numbers("truth", one) for one in (truth if batch else [truth])]
+    if len(states) != len(each):
+        raise InputError(f"`truth` is of {len(states)} tracks, not {len(each)}", argument="truth")
+    known = [one[: len(estimates)] for one, estimates in zip(states, each, strict=True)]
+    mean = np.concatenate([estimates.mean for estimates in each])
+    cov = np.concatenate([estimates.cov for estimates in each])
+    found = _native.accuracy(mean, cov, np.concatenate(known))
+    return found["rmse"], found["nees"] / found["nees_dof"] if found["nees_dof"] else float("nan")

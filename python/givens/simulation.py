@@ -1,0 +1,121 @@
+"""Trajectories drawn from a model."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from givens import _native
+from givens._arrays import Array, shape_error
+from givens._clock import clock_of
+from givens._join import join
+from givens._plan import read_prior, with_parameters
+from givens._rows import controls_of, noise_shapes, with_noise
+from givens.errors import InputError
+from givens.gaussian import Gaussian
+
+__all__ = ["Simulated", "simulate"]
+
+
+@dataclass(frozen=True, eq=False)
+class Simulated:
+    """True states and measurements.
+
+    Attributes
+    ----------
+    t : ndarray, shape (rows,)
+    x : ndarray, shape (rows, n), or (runs, rows, n)
+        True states.
+    z : ndarray, shape (rows, d), or (runs, rows, d)
+        Measurements of all sensors, side by side.
+    """
+
+    t: np.ndarray[Any, Any]
+    x: Array
+    z: Array
+
+    def __repr__(self) -> str:
+        return f"Simulated(t={self.t.shape}, x={self.x.shape}, z={self.z.shape})"
+
+
+def simulate(
+    model: Any,
+    sensors: Any,
+    t: Any,
+    *,
+    prior: Gaussian | None = None,
+    seed: int,
+    runs: int | None = None,
+    t0: Any = None,
+    u: Any = None,
+    noise: Any = None,
+    params: Mapping[str, Any] | None = None,
+    substeps: int = 16,
+    threads: int | None = None,
+) -> Simulated:
+    """Draws true states and measurements at the times `t`.
+
+    Parameters
+    ----------
+    model, sensors, t, t0, u, noise, params
+        As for `filter`.
+    prior : Gaussian
+        The state at `t0` is drawn from it.
+    seed : int
+        Equal seeds give equal draws, on any number of threads.
+    runs : int, optional
+        How many trajectories; without it one, in arrays of two dimensions.
+    substeps : int, optional
+        Steps for each gap of a continuous model.
+
+    Returns
+    -------
+    Simulated
+        The times, the states, and the measurements.
+
+    Raises
+    ------
+    InputError
+        For arguments that cannot serve.
+    StepError
+        For a model that is not finite on the way.
+
+    Examples
+    --------
+    >>> import givens as gv
+    >>> model = gv.Sde(lambda t, x: [x[1], -x[0]], diffusion=[0.0, 0.1], state=["x", "v"])
+    >>> ruler = gv.Sensor(lambda t, x: x[:1], measures=["length"], std=[0.1])
+    >>> gv.simulate(model, ruler, [0.0, 0.5, 1.0], prior=gv.Gaussian([1, 0], std=[1, 1]), seed=7, runs=100)
+    Simulated(t=(3,), x=(100, 3, 2), z=(100, 3, 1))
+    """
+    model, sensors = with_parameters(model, sensors, params or {})
+    plain = join(model, sensors)
+    widths = {name: place.stop - place.start for name, place in plain.sensors.items()}
+    joined = join(model, sensors, noise_shapes(noise, widths)) if noise is not None else plain
+    clock = clock_of(t, t0)
+    time = clock.seconds("t", t)
+    if time.ndim != 1:
+        raise shape_error("t", time.shape, "(rows,)", "times are a vector: t=np.ravel(…)")
+    for name, value, least in (("seed", seed, 0), ("runs", 1 if runs is None else runs, 0), ("substeps", substeps, 1)):
+        if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or value < least:
+            raise InputError(f"`{name}` is {value!r}", argument=name, remedy=f"give a whole number, from {least} up")
+    z = np.zeros((len(time), len(joined.measures)))
+    controls = with_noise(joined, controls_of(joined, u, len(time)), noise, z)
+    mean, cov = read_prior(model, prior, joined.states)
+    start = None if t0 is None else float(clock.seconds("t0", t0))
+    x, drawn = _native.simulate(
+        joined.native,
+        mean,
+        cov,
+        start,
+        time,
+        int(seed),
+        1 if runs is None else int(runs),
+        u=controls,
+        substeps=int(substeps),
+        threads=threads,
+    )
+    return Simulated(clock.shown(time), *((x[0], drawn[0]) if runs is None else (x, drawn)))

@@ -19,10 +19,13 @@ use crate::watch::detached;
 type Numbers<'py> = PyReadonlyArrayDyn<'py, f64>;
 type Array<'py> = Bound<'py, PyArrayDyn<f64>>;
 
+/// The model stays where it is while the filter moves.
+type Owner = Box<Model>;
+
 self_cell!(
     /// A filter and the model that it steps.
     struct Stepper {
-        owner: Box<Model>,
+        owner: Owner,
         #[covariant]
         dependent: AnyFilter,
     }
@@ -263,7 +266,7 @@ fn read(model: &Model, snapshot: &Bound<'_, PyDict>) -> Result<(Snapshot, Learnt
         Ok(snapshot.get_item(key)?.ok_or_else(missing)?)
     };
     let array = |key: &str| -> Result<Vec<f64>> {
-        Ok(numbers(&item(key)?.extract::<Numbers<'_>>().map_err(PyErr::from)?))
+        Ok(numbers(&item(key)?.extract::<Numbers<'_>>()?))
     };
     let (d, controls) = (model.measures(), item("controls")?);
     let (calls, jacobians, accepted, rejected) = item("work")?.extract()?;
@@ -280,7 +283,7 @@ fn read(model: &Model, snapshot: &Bound<'_, PyDict>) -> Result<(Snapshot, Learnt
         work: Work { calls, jacobians, accepted, rejected },
     };
     let of = |key: &'static str, shape: &[usize]| -> Result<Vec<f64>> {
-        shaped(key, &item(key)?.extract::<Numbers<'_>>().map_err(PyErr::from)?, shape)
+        shaped(key, &item(key)?.extract::<Numbers<'_>>()?, shape)
     };
     let learnt = Learnt {
         innovation: of("innovation", &[d])?,

@@ -5,8 +5,9 @@
 
 use core::cell::{Cell, RefCell};
 use core::sync::atomic::{AtomicBool, Ordering};
+use core::time::Duration;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use pyo3::prelude::*;
 
@@ -55,7 +56,7 @@ impl Run {
         }
         let Some(last) = self.looked.get() else { return };
         if last.elapsed() >= PATIENCE {
-            if let Err(error) = Python::attach(|py| py.check_signals()) {
+            if let Err(error) = Python::attach(Python::check_signals) {
                 self.end(Some(error));
             }
             self.looked.set(Some(Instant::now()));

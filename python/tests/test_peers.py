@@ -9,16 +9,15 @@ import sys
 from pathlib import Path
 from typing import Any
 
+import givens as gv
 import numpy as np
 import pytest
-
-import givens as gv
 
 PEERS = Path(__file__).with_name("peers")
 sys.path.insert(0, str(PEERS))
 
-import problems  # noqa: E402
-import record  # noqa: E402
+import problems
+import record
 
 NAMES = ["filterpy", "dynamax", "cuthbert", "stonesoup", "cd_dynamax"]
 FILES = {name: json.loads((PEERS / f"{name}.json").read_text()) for name in NAMES}

@@ -6,24 +6,24 @@ import jax
 
 jax.config.update("jax_enable_x64", True)
 
-import diffrax  # noqa: E402
-import jax.numpy as jnp  # noqa: E402
-import problems  # noqa: E402
-from cd_dynamax.dynamax.linear_gaussian_ssm.inference import ParamsLGSSMInitial  # noqa: E402
-from cd_dynamax.src.continuous_discrete_nonlinear_gaussian_ssm import (  # noqa: E402
+import diffrax
+import jax.numpy as jnp
+import problems
+from cd_dynamax.dynamax.linear_gaussian_ssm.inference import ParamsLGSSMInitial
+from cd_dynamax.src.continuous_discrete_nonlinear_gaussian_ssm import (
     EKFHyperParams,
     ParamsCDNLGSSM,
     ParamsCDNLGSSMDynamics,
     ParamsCDNLGSSMEmissions,
     UKFHyperParams,
 )
-from cd_dynamax.src.continuous_discrete_nonlinear_gaussian_ssm.cdnlgssm_utils import LearnableMatrix, LearnableVector  # noqa: E402
-from cd_dynamax.src.continuous_discrete_nonlinear_gaussian_ssm.inference_ekf import (  # noqa: E402
+from cd_dynamax.src.continuous_discrete_nonlinear_gaussian_ssm.cdnlgssm_utils import LearnableMatrix, LearnableVector
+from cd_dynamax.src.continuous_discrete_nonlinear_gaussian_ssm.inference_ekf import (
     extended_kalman_filter,
     extended_kalman_smoother,
 )
-from cd_dynamax.src.continuous_discrete_nonlinear_gaussian_ssm.inference_ukf import unscented_kalman_filter  # noqa: E402
-from record import Recorder  # noqa: E402
+from cd_dynamax.src.continuous_discrete_nonlinear_gaussian_ssm.inference_ukf import unscented_kalman_filter
+from record import Recorder
 
 recorder = Recorder("cd_dynamax", "cd-dynamax", "diffrax", "jax", "jaxlib", "numpy")
 PROBLEM = problems.load("pendulum")

@@ -9,16 +9,16 @@ import jax
 
 jax.config.update("jax_enable_x64", True)
 
-import jax.numpy as jnp  # noqa: E402
-import numpy as np  # noqa: E402
-import problems  # noqa: E402
-from cuthbert import filter as run_filter  # noqa: E402
-from cuthbert import smoother as run_smoother  # noqa: E402
-from cuthbert.gaussian import moments  # noqa: E402
-from cuthbertlib.kalman import filtering, smoothing  # noqa: E402
-from cuthbertlib.quadrature import cubature  # noqa: E402
-from cuthbertlib.quadrature.linearize import functional  # noqa: E402
-from record import Recorder  # noqa: E402
+import jax.numpy as jnp
+import numpy as np
+import problems
+from cuthbert import filter as run_filter
+from cuthbert import smoother as run_smoother
+from cuthbert.gaussian import moments
+from cuthbertlib.kalman import filtering, smoothing
+from cuthbertlib.quadrature import cubature
+from cuthbertlib.quadrature.linearize import functional
+from record import Recorder
 
 recorder = Recorder("cuthbert", "cuthbert", "cuthbertlib", "jax", "jaxlib", "numpy")
 

@@ -6,17 +6,17 @@ import jax
 
 jax.config.update("jax_enable_x64", True)
 
-import jax.numpy as jnp  # noqa: E402
-import numpy as np  # noqa: E402
-import problems  # noqa: E402
-from dynamax.linear_gaussian_ssm import LinearGaussianSSM, lgssm_smoother  # noqa: E402
-from dynamax.nonlinear_gaussian_ssm import (  # noqa: E402
+import jax.numpy as jnp
+import numpy as np
+import problems
+from dynamax.linear_gaussian_ssm import LinearGaussianSSM, lgssm_smoother
+from dynamax.nonlinear_gaussian_ssm import (
     ParamsNLGSSM,
     UKFHyperParams,
     extended_kalman_smoother,
     unscented_kalman_smoother,
 )
-from record import Recorder  # noqa: E402
+from record import Recorder
 
 recorder = Recorder("dynamax", "dynamax", "jax", "jaxlib", "numpy")
 

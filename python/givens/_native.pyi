@@ -74,6 +74,7 @@ class _Track(TypedDict):
     time: _Array
     z: _Array
     u: _Array
+    #: Which sensor each row names; their number where it names none.
     sensor: NDArray[np.int64]
     line: NDArray[np.int64]
     t0: float

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 from givens._native import Choice, Function, Graph, Model
+from numpy.typing import NDArray
 
 GOLDEN = Path(__file__).parents[2] / "tests" / "golden"
 
@@ -33,10 +34,10 @@ std = [0.1]
 STEPS = SPRING.replace('drift = { x = "v", v = "-k*sin(x)" }', 'transition = { x = "x + dt*v", v = "v - dt*k*sin(x)" }')
 STEPS = STEPS.replace('diffusion = { v = "q" }', 'noise_cov = [["0", "0"], ["0", "q^2*dt"]]')
 
-TIME = np.arange(1, 21) * 0.1
-Z = (1.4 + 0.1 * np.sin(9 * TIME))[:, None]
-MEAN = np.array([1.0, 0.0])
-STD = np.array([0.3, 0.2])
+TIME: NDArray[np.float64] = np.arange(1, 21) * 0.1
+Z: NDArray[np.float64] = (1.4 + 0.1 * np.sin(9 * TIME))[:, None]
+MEAN: NDArray[np.float64] = np.array([1.0, 0.0])
+STD: NDArray[np.float64] = np.array([0.3, 0.2])
 
 
 class Nodes:

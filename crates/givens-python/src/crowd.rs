@@ -8,7 +8,7 @@ use std::thread;
 use pyo3::prelude::*;
 
 use crate::errors::{Input, Result};
-use crate::watch::{PATIENCE, alone, detached};
+use crate::watch::{PATIENCE, alone, detached, signals};
 
 /// The number of threads: as many as the machine has where none is said.
 pub fn threads(asked: Option<usize>) -> Result<usize> {
@@ -75,7 +75,7 @@ pub fn each<R: Send>(
                 match receive.recv_timeout(PATIENCE) {
                     Ok((k, result)) => done[k] = Some(result),
                     Err(RecvTimeoutError::Timeout) => {
-                        if let Err(error) = Python::attach(|py| py.check_signals()) {
+                        if let Err(error) = signals() {
                             note(error, None);
                         }
                     }
@@ -109,7 +109,7 @@ pub fn aside<R: Send + 'static>(
                 Ok((result, None)) => return Ok(result),
                 Ok((_, Some(raised))) => return Err(raised),
                 Err(RecvTimeoutError::Timeout) => {
-                    if let Err(error) = Python::attach(|py| py.check_signals()) {
+                    if let Err(error) = signals() {
                         stop.store(true, Ordering::Relaxed);
                         return Err(error);
                     }

@@ -3,13 +3,13 @@
 use givens::filter::StepError;
 use givens::registry::Choice;
 use givens::{Estimates as Rows, Outcome};
-use numpy::{PyArray1, PyArrayDyn, PyArrayMethods};
+use numpy::{PyArray1, PyArrayDyn, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::failure::{self, At};
 use crate::model::Model;
-use crate::numbers::frozen;
+use crate::numbers::{counts, frozen};
 
 type Array = Py<PyArrayDyn<f64>>;
 
@@ -48,9 +48,7 @@ impl Estimates {
         } else {
             (mean.clone_ref(py), cov.clone_ref(py))
         };
-        let dof: Vec<i64> = rows.nis_dof.iter().map(|&dof| dof as i64).collect();
-        let nis_dof = PyArray1::from_vec(py, dof);
-        nis_dof.readwrite().make_nonwriteable();
+        let nis_dof = counts(py, rows.nis_dof.iter().copied());
         Ok(Self {
             time: array(rows.time, &[k])?,
             mean,
@@ -87,8 +85,7 @@ impl Estimates {
 
 #[pymethods]
 impl Estimates {
-    fn __len__(&self, py: Python<'_>) -> PyResult<usize> {
-        use numpy::PyUntypedArrayMethods;
-        Ok(self.time.bind(py).len())
+    fn __len__(&self, py: Python<'_>) -> usize {
+        self.time.bind(py).len()
     }
 }

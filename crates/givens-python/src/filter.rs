@@ -1,7 +1,6 @@
 //! A filter that is stepped by hand.
 
-use givens::filter::{Snapshot, StepError};
-use givens::ode::Work;
+use givens::filter::StepError;
 use givens::registry::{AnyFilter, Choice as Chosen};
 use numpy::{PyArrayDyn, PyReadonlyArrayDyn};
 use pyo3::prelude::*;
@@ -12,8 +11,9 @@ use crate::choice::Choice;
 use crate::errors::{Input, Result};
 use crate::failure::{At, noted, refusal};
 use crate::model::{Model, Moves};
-use crate::numbers::{frozen, numbers, shaped};
+use crate::numbers::{frozen, shaped};
 use crate::rows::{belief, finite};
+use crate::snapshot::{self, Learnt};
 use crate::watch::detached;
 
 type Numbers<'py> = PyReadonlyArrayDyn<'py, f64>;
@@ -22,7 +22,7 @@ type Array<'py> = Bound<'py, PyArrayDyn<f64>>;
 self_cell!(
     /// A filter and the model that it steps.
     struct Stepper {
-        owner: Box<Model>,
+        owner: Model,
         #[covariant]
         dependent: AnyFilter,
     }
@@ -33,30 +33,7 @@ impl Stepper {
         model: &Model,
         start: impl for<'m> FnOnce(&'m Model) -> core::result::Result<AnyFilter<'m>, StepError>,
     ) -> core::result::Result<Self, StepError> {
-        Self::try_new(Box::new(model.clone()), |model| start(model))
-    }
-}
-
-/// What the last measurement said.
-#[derive(Clone, Debug)]
-struct Learnt {
-    innovation: Vec<f64>,
-    innovation_cov: Vec<f64>,
-    nis: f64,
-    nis_dof: usize,
-    log_likelihood: f64,
-}
-
-impl Learnt {
-    fn nothing(d: usize) -> Self {
-        let (innovation, innovation_cov) = (vec![f64::NAN; d], vec![f64::NAN; d * d]);
-        Self { innovation, innovation_cov, nis: f64::NAN, nis_dof: 0, log_likelihood: 0.0 }
-    }
-
-    fn of(filter: &AnyFilter<'_>) -> Self {
-        let (innovation, innovation_cov) = filter.whole_innovation();
-        let (nis, nis_dof, log_likelihood) = (filter.nis(), filter.dof(), filter.log_likelihood());
-        Self { innovation, innovation_cov, nis, nis_dof, log_likelihood }
+        Self::try_new(model.clone(), |model| start(model))
     }
 }
 
@@ -139,7 +116,7 @@ impl Filter {
     fn resume(py: Python<'_>, model: &Model, choice: &Choice, snapshot: &Bound<'_, PyDict>) -> Result<Self> {
         let choice = choice.0;
         model.serves(&choice)?;
-        let (from, learnt) = read(model, snapshot)?;
+        let (from, learnt) = snapshot::read(model, snapshot)?;
         let filter = Self::begin(py, model, choice, |model| match &model.moves {
             Moves::Discrete(moves) => choice.resume(moves, &model.sensing, &from),
             Moves::Continuous(moves) => choice.resume_continuous(moves, &model.sensing, &from),
@@ -226,68 +203,6 @@ impl Filter {
 
     /// All that it carries, as plain data.
     fn snapshot<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let (carried, n) = (self.filter().snapshot(), self.filter().states());
-        let square = |values: Vec<f64>| match values.len() {
-            0 => frozen(py, values, &[0, 0]),
-            _ => frozen(py, values, &[n, n]),
-        };
-        let flat = |values: Vec<f64>| {
-            let len = values.len();
-            frozen(py, values, &[len])
-        };
-        let all = PyDict::new(py);
-        all.set_item("time", carried.time)?;
-        all.set_item("step", carried.step)?;
-        all.set_item("mean", flat(carried.mean)?)?;
-        all.set_item("factor", square(carried.factor)?)?;
-        all.set_item("cov", square(carried.cov)?)?;
-        all.set_item("moved", square(carried.moved)?)?;
-        all.set_item("floor", flat(carried.floor)?)?;
-        all.set_item("controls", carried.controls.map(flat).transpose()?)?;
-        all.set_item("parameters", flat(carried.parameters)?)?;
-        let Work { calls, jacobians, accepted, rejected } = carried.work;
-        all.set_item("work", (calls, jacobians, accepted, rejected))?;
-        all.set_item("innovation", self.innovation(py)?)?;
-        all.set_item("innovation_cov", self.innovation_cov(py)?)?;
-        all.set_item("nis", self.learnt.nis)?;
-        all.set_item("nis_dof", self.learnt.nis_dof)?;
-        all.set_item("log_likelihood", self.learnt.log_likelihood)?;
-        Ok(all)
+        snapshot::write(py, self.filter(), &self.learnt)
     }
-}
-
-/// A snapshot from its dict.
-fn read(model: &Model, snapshot: &Bound<'_, PyDict>) -> Result<(Snapshot, Learnt)> {
-    let item = |key: &str| -> Result<Bound<'_, PyAny>> {
-        let missing = || Input::new("snapshot", format!("the snapshot has no `{key}`"));
-        Ok(snapshot.get_item(key)?.ok_or_else(missing)?)
-    };
-    let array = |key: &str| -> Result<Vec<f64>> {
-        Ok(numbers(&item(key)?.extract::<Numbers<'_>>().map_err(PyErr::from)?))
-    };
-    let (d, controls) = (model.measures(), item("controls")?);
-    let (calls, jacobians, accepted, rejected) = item("work")?.extract()?;
-    let carried = Snapshot {
-        time: item("time")?.extract()?,
-        step: item("step")?.extract()?,
-        mean: array("mean")?,
-        factor: array("factor")?,
-        cov: array("cov")?,
-        moved: array("moved")?,
-        floor: array("floor")?,
-        controls: if controls.is_none() { None } else { Some(array("controls")?) },
-        parameters: array("parameters")?,
-        work: Work { calls, jacobians, accepted, rejected },
-    };
-    let of = |key: &'static str, shape: &[usize]| -> Result<Vec<f64>> {
-        shaped(key, &item(key)?.extract::<Numbers<'_>>().map_err(PyErr::from)?, shape)
-    };
-    let learnt = Learnt {
-        innovation: of("innovation", &[d])?,
-        innovation_cov: of("innovation_cov", &[d, d])?,
-        nis: item("nis")?.extract()?,
-        nis_dof: item("nis_dof")?.extract()?,
-        log_likelihood: item("log_likelihood")?.extract()?,
-    };
-    Ok((carried, learnt))
 }

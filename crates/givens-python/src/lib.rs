@@ -15,6 +15,7 @@ mod numbers;
 mod rows;
 mod run;
 mod simulate;
+mod snapshot;
 mod table;
 mod watch;
 

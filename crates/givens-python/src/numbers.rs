@@ -1,7 +1,7 @@
 //! Arrays of NumPy and plain memory.
 
 use numpy::ndarray::{ArrayD, IxDyn};
-use numpy::{PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArrayMethods};
+use numpy::{PyArray1, PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 
 use crate::errors::{Input, Result};
@@ -47,4 +47,12 @@ pub fn frozen<'py>(
     let array = PyArrayDyn::from_owned_array(py, array);
     array.readwrite().make_nonwriteable();
     Ok(array)
+}
+
+/// Whole numbers as an array that cannot be written to.
+pub fn counts(py: Python<'_>, values: impl Iterator<Item = usize>) -> Bound<'_, PyArray1<i64>> {
+    let values = values.map(|value| i64::try_from(value).unwrap_or(i64::MAX));
+    let array = PyArray1::from_iter(py, values);
+    array.readwrite().make_nonwriteable();
+    array
 }

@@ -1,13 +1,12 @@
 //! Tables of measurements, as arrays.
 
 use givens_io::{Track, read_tracks as read};
-use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 
 use crate::errors::{Input, Result};
 use crate::model::Model;
-use crate::numbers::frozen;
+use crate::numbers::{counts, frozen};
 
 /// Reads the measurements for a model that is from a file; see the stub.
 #[pyfunction]
@@ -29,7 +28,8 @@ pub fn read_tracks<'py>(py: Python<'py>, model: &Model, path: &str) -> Result<Bo
 /// One track, and where it begins.
 fn arrays<'py>(py: Python<'py>, model: &Model, track: &Track) -> Result<Bound<'py, PyDict>> {
     let (k, d, c) = (track.rows.len(), model.measures(), model.controls());
-    let begun = model.file()?.begin(track).map_err(|error| {
+    let file = model.file()?;
+    let begun = file.begin(track).map_err(|error| {
         let at = error.line.map_or_else(String::new, |line| format!("line {line}: "));
         let of = track.id.as_ref().map_or_else(String::new, |id| format!("track {id}: "));
         Input::new("data", format!("{at}{of}{}", error.message)).help(error.help)
@@ -42,10 +42,10 @@ fn arrays<'py>(py: Python<'py>, model: &Model, track: &Track) -> Result<Bound<'p
     all.set_item("time", frozen(py, track.rows.iter().map(|row| row.time).collect(), &[k])?)?;
     all.set_item("z", frozen(py, gather(|row| &row.z), &[k, d])?)?;
     all.set_item("u", frozen(py, gather(|row| &row.u), &[k, c])?)?;
-    let sensors: Vec<i64> = track.rows.iter().map(|row| row.sensor.map_or(-1, |i| i as i64)).collect();
-    all.set_item("sensor", PyArray1::from_vec(py, sensors))?;
-    let lines: Vec<i64> = track.rows.iter().map(|row| row.line as i64).collect();
-    all.set_item("line", PyArray1::from_vec(py, lines))?;
+    // one beyond the last sensor: a row that names none
+    let of = |row: &givens_io::Row| row.sensor.unwrap_or(file.sensors.len());
+    all.set_item("sensor", counts(py, track.rows.iter().map(of)))?;
+    all.set_item("line", counts(py, track.rows.iter().map(|row| row.line)))?;
     all.set_item("t0", begun.time)?;
     all.set_item("mean", frozen(py, begun.prior.mean().to_vec(), &[n])?)?;
     all.set_item("cov", frozen(py, begun.prior.cov().to_vec(), &[n, n])?)?;

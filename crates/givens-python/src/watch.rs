@@ -5,8 +5,9 @@
 
 use core::cell::{Cell, RefCell};
 use core::sync::atomic::{AtomicBool, Ordering};
+use core::time::Duration;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use pyo3::prelude::*;
 
@@ -55,12 +56,18 @@ impl Run {
         }
         let Some(last) = self.looked.get() else { return };
         if last.elapsed() >= PATIENCE {
-            if let Err(error) = Python::attach(|py| py.check_signals()) {
+            if let Err(error) = signals() {
                 self.end(Some(error));
             }
             self.looked.set(Some(Instant::now()));
         }
     }
+}
+
+/// What a signal raises, if one has come.
+#[expect(clippy::redundant_closure_for_method_calls)] // the method alone is not general enough
+pub fn signals() -> PyResult<()> {
+    Python::attach(|py| py.check_signals())
 }
 
 /// Whether the run on this thread goes on.

@@ -16,7 +16,7 @@ pub struct Sensing(Arc<Way>);
 
 #[derive(Debug)]
 enum Way {
-    Traced(ModelObservation),
+    Traced(Box<ModelObservation>),
     Called(Called),
 }
 
@@ -43,7 +43,7 @@ pub struct Sensor {
 impl Sensing {
     /// Of expressions.
     pub fn traced(model: ModelObservation) -> Self {
-        Self(Arc::new(Way::Traced(model)))
+        Self(Arc::new(Way::Traced(Box::new(model))))
     }
 
     /// Of functions.

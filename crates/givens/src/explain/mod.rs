@@ -113,9 +113,10 @@ impl Explain<'_> {
         let set = |key, value| self.face.set(key, value);
         let (what, remedy) = match *fault {
             Fault::NotPositive { matrix, pivot } => {
-                let (kind, name) = match of_measures(matrix) {
-                    true => ("measure", self.measure(pivot)),
-                    false => ("state", self.state(pivot)),
+                let (kind, name) = if of_measures(matrix) {
+                    ("measure", self.measure(pivot))
+                } else {
+                    ("state", self.state(pivot))
                 };
                 let what = format!(
                     "the {} is not positive definite at pivot {} ({kind} {name})",
@@ -125,17 +126,17 @@ impl Explain<'_> {
                 (what, self.of_matrix(matrix, choice))
             }
             Fault::SingularInnovation { measure } => {
-                let mut what = format!(
+                let what = format!(
                     "the innovation covariance is singular at pivot {} (measure {}): nothing is uncertain about it",
                     measure + 1,
                     self.measure(measure)
                 );
-                let mut remedy = "give it a std above zero".to_owned();
-                if choice.is_some_and(|choice| choice.form == FormName::Covariance) {
-                    what += " that the others do not say, to the digits that a covariance keeps";
-                    remedy += &format!(", or try the square-root form ({})", set("form", "square-root"));
+                if choice.is_none_or(|choice| choice.form == FormName::SquareRoot) {
+                    return (what, Some("give it a std above zero".to_owned()));
                 }
-                (what, remedy)
+                let form = set("form", "square-root");
+                let remedy = format!("give it a std above zero, or try the square-root form ({form})");
+                (format!("{what} that the others do not say, to the digits that a covariance keeps"), remedy)
             }
             Fault::Indistinct { component } => {
                 let what = format!(

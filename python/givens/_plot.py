@@ -37,6 +37,7 @@ def plot(one: Estimates, plane: tuple[str, str] | None, truth: Any) -> Any:
             axes.tick_params(labelbottom=False)
         else:
             _nis(axes, one)
+            _dates(axes, one)
     if places is not None:
         _track(figure.add_subplot(grid[:, 0]), one, places, known)
     return figure
@@ -53,7 +54,7 @@ def _state(axes: Any, one: Estimates, i: int, truth: Array | None) -> None:
     axes.plot(one.time, mean, color=_ESTIMATE, linewidth=1.2, label=word)
     axes.set_ylabel(one.state[i])
     if i == 0:
-        axes.legend(loc="upper right", fontsize="small", frameon=False, ncols=3)
+        axes.legend(loc="best", fontsize="small", frameon=False, ncols=3)
         axes.set_title(f"{one.method}: mean and two standard deviations", fontsize="medium")
 
 
@@ -66,6 +67,14 @@ def _nis(axes: Any, one: Estimates) -> None:
     axes.set_ylabel("NIS / dof")
     axes.set_xlabel("time")
     axes.set_title(str(one.consistency()).partition(";")[0], fontsize="small", loc="left")
+
+
+def _dates(axes: Any, one: Estimates) -> None:
+    if one.time.dtype.kind == "M":
+        dates = wanted("matplotlib.dates")
+        locator = dates.AutoDateLocator()
+        axes.xaxis.set_major_locator(locator)
+        axes.xaxis.set_major_formatter(dates.ConciseDateFormatter(locator))
 
 
 def _track(axes: Any, one: Estimates, places: tuple[int, ...], truth: Array | None) -> None:

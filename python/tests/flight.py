@@ -3,8 +3,9 @@
 import json
 from pathlib import Path
 
-import givens as gv
 import numpy as np
+
+import givens as gv
 
 GOLDEN = Path(__file__).parents[2] / "tests" / "golden"
 STATES = ["e", "e_dot", "n", "n_dot", "z", "z_dot", "w"]

@@ -2,10 +2,11 @@
 
 import pickle
 
-import givens as gv
 import numpy as np
 import pytest
-from test_running import LENGTH, MODEL, PRIOR, SPEED, T, Z, Z3
+from test_running import LENGTH, MODEL, PRIOR, SPEED, Z3, T, Z
+
+import givens as gv
 
 S = ["x", "v"]
 

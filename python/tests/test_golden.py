@@ -2,10 +2,11 @@
 
 import functools
 
-import givens as gv
 import numpy as np
 import pytest
 from flight import golden, turn, worst
+
+import givens as gv
 
 CONTINUOUS = golden("continuous.json")
 DISCRETE = golden("discrete.json")["scenarios"]

@@ -4,10 +4,11 @@ import copy
 import math
 import pickle
 
-import givens as gv
 import numpy as np
 import pytest
 from flight import drift, radar
+
+import givens as gv
 
 STATES = ["x", "v"]
 PRIOR = gv.Gaussian([1.0, 0.0], std=[1.0, 1.0])

@@ -71,7 +71,9 @@ def test_controls_are_asked_for_and_set() -> None:
     nodes = m.Nodes()
     g = nodes.graph
     pushed = [nodes.transition[0], g.binary("add", nodes.transition[1], g.control(0))]
-    model = type(m.discrete()).discrete(g, ["x", "v"], 1, [2.0, 0.1], pushed, nodes.noise_cov, None, nodes.sensors())
+    model = type(m.discrete()).discrete(
+        g, ["x", "v"], 1, [2.0, 0.1], pushed, nodes.noise_cov, None, nodes.sensors()
+    )
     f = Filter.start(model, choose("sr-ckf"), MEAN, STD, 0.0)
     with pytest.raises(StepError, match="controls that were never set") as caught:
         f.predict(0.1)

@@ -61,9 +61,7 @@ def error(mean: Any, cov: Any, golden_mean: list[float], golden_cov: list[float]
 
 @pytest.mark.parametrize("road", ROADS, ids=["covariance", "joint", "separate"])
 @pytest.mark.parametrize("name", BOUNDS)
-@pytest.mark.parametrize(
-    "rule", ["cubature3", "cubature5", "unscented", "gauss_hermite3", "central_difference", "taylor"]
-)
+@pytest.mark.parametrize("rule", ["cubature3", "cubature5", "unscented", "gauss_hermite3", "central_difference", "taylor"])
 def test_filters_and_smoothers_give_the_numbers_of_the_oracle(name: str, rule: str, road: dict[str, str]) -> None:
     filter_bound, smoother_bound = BOUNDS[name]
     golden = scenario(name)[2]["filters"][rule]

@@ -4,10 +4,11 @@ import inspect
 import linecache
 import os
 
-import givens as gv
 import numpy as np
 import pytest
 from functions_not_to_trace import REFUSED
+
+import givens as gv
 
 NAMES = ["a", "b", "c"]
 

@@ -4,9 +4,10 @@ import copy
 import datetime
 import pickle
 
-import givens as gv
 import numpy as np
 import pytest
+
+import givens as gv
 
 PRIOR = gv.Gaussian([1.0, 0.0], std=[1.0, 1.0])
 MODEL = gv.Sde(lambda t, x, *, k=1.0: [x[1], -k * x[0]], diffusion=[0.0, 0.1], state=["x", "v"])
@@ -64,7 +65,7 @@ def test_dates_are_seconds_since_the_start():
     same(plain.at([1.25, 3.0]), dated.at([origin + np.timedelta64(1250, "ms"), origin + np.timedelta64(3, "s")]))
     listed = [datetime.datetime(2024, 2, 29, 12) + datetime.timedelta(seconds=s) for s in T]
     same(plain, run(t=listed, t0=datetime.datetime(2024, 2, 29, 12)))
-    aware = [d.replace(tzinfo=datetime.timezone.utc) for d in listed]
+    aware = [d.replace(tzinfo=datetime.UTC) for d in listed]
     same(plain, run(t=aware, t0=aware[0] - datetime.timedelta(seconds=T[0])))
 
 

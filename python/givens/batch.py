@@ -67,7 +67,7 @@ class Batch(Sequence[Estimates]):
         return self._estimates[self.track_ids.index(name)]
 
     def _stacked(self, name: str) -> Array:
-        lengths = {len(one.__dict__["_track"].time) for one in self._estimates}
+        lengths = {one.__dict__["_rows"] for one in self._estimates}
         if len(lengths) > 1:
             raise InputError(
                 f"the tracks have {min(lengths)} to {max(lengths)} rows: `{name}` cannot be one array",

@@ -10,7 +10,6 @@ import numpy.typing as npt
 
 from givens import _native
 from givens._arrays import Array, frozen
-from givens._clock import Clock
 from givens._plan import Track
 from givens.consistency import Consistency, consistency_of
 from givens.errors import InputError, StepError
@@ -121,7 +120,7 @@ class Estimates:
         seconds = frozen(np.concatenate([track.time[:before], found.time])) if before else found.time
         fields |= {"seconds": seconds, "time": track.clock.shown(seconds), "is_smoothed": found.smoothed}
         fields |= {"state": track.joined.states, "measures": track.joined.measures, "method": track.choice.name}
-        fields |= {"failed": failed, "track_id": track.id, "_track": track, "_goal": goal}
+        fields |= {"failed": failed, "track_id": track.id, "_track": track, "_goal": goal, "_rows": len(track.time)}
         self.__dict__.update(fields)
         return self
 
@@ -141,10 +140,12 @@ class Estimates:
         """The log-likelihood of all measurements together."""
         return float(np.sum(self.log_likelihood))
 
-    @property
-    def _clock(self) -> Clock:
-        track: Track = self.__dict__["_track"]
-        return track.clock
+    def __getstate__(self) -> dict[str, Any]:
+        # a native model cannot travel: what comes back has all numbers but cannot run again
+        return {**self.__dict__, "_track": None}
+
+    def __setstate__(self, fields: dict[str, Any]) -> None:
+        self.__dict__.update(fields)
 
     def at(self, times: Any) -> Estimates:
         """The estimates at other times, in order: predictions between the rows, or smoothed states.
@@ -156,9 +157,15 @@ class Estimates:
         times : array_like
             From the time of the prior on; dates if the data has dates.
         """
-        track: Track = self.__dict__["_track"]
+        track: Track | None = self.__dict__["_track"]
         goal: Goal = self.__dict__["_goal"]
-        wanted = np.atleast_1d(self._clock.seconds("at", times))
+        if track is None:
+            raise InputError(
+                "these estimates come from a pickle and cannot run again",
+                argument="at",
+                remedy="ask before they are pickled, or give at=… to givens.filter",
+            )
+        wanted = np.atleast_1d(track.clock.seconds("at", times))
         native = track.run(goal.word, goal.value, wanted)
         error = step_error(track, native, goal)
         if error is not None:

@@ -63,12 +63,25 @@ class ModelFile:
     (2, 2)
     """
 
-    __slots__ = ("native",)
+    __slots__ = ("_text", "native")
 
     native: Model
+    _text: str
 
-    def __init__(self, native: Model) -> None:
+    def __init__(self, native: Model, text: str) -> None:
         object.__setattr__(self, "native", native)
+        object.__setattr__(self, "_text", text)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _again, (self._text, self.native.file or "model", dict(self.parameters))
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, ModelFile):
+            return NotImplemented
+        return (self._text, self.parameters) == (other._text, other.parameters)
+
+    def __hash__(self) -> int:
+        return hash(self._text)
 
     def __setattr__(self, name: str, value: object) -> None:
         raise AttributeError("a model file cannot be changed; with_params(…) gives a copy with other parameters")
@@ -126,7 +139,7 @@ class ModelFile:
         for name, value in values.items():
             known_name("with_params", name, tuple(new), "parameter")
             new[name] = float(parameter_value("with_params", name, value))
-        return ModelFile(self.native.with_parameters(np.array(list(new.values()), dtype=float)))
+        return ModelFile(self.native.with_parameters(np.array(list(new.values()), dtype=float)), self._text)
 
     def filter(self, t: Any, z: Any = None, **options: Any) -> Estimates | Batch:
         """Filters a table, the path of a CSV file, or arrays `t` and `z`; see `givens.filter`."""
@@ -176,12 +189,18 @@ def read_model(path: str | os.PathLike[str], **parameters: float) -> ModelFile:
     ModelError
         For a file with errors; all of them, with their places.
     """
-    return ModelFile(Model.read(os.fspath(path), _floats(parameters)))
+    native = Model.read(os.fspath(path), _floats(parameters))
+    with open(path, encoding="utf-8") as file:
+        return ModelFile(native, file.read())
 
 
 def parse_model(text: str, *, name: str = "model", **parameters: float) -> ModelFile:
     """Reads the text of a model file; errors call it `name`. Otherwise as `read_model`."""
-    return ModelFile(Model.parse(text, name, _floats(parameters)))
+    return ModelFile(Model.parse(text, name, _floats(parameters)), text)
+
+
+def _again(text: str, name: str, parameters: dict[str, float]) -> ModelFile:
+    return parse_model(text, name=name, **parameters)
 
 
 def _floats(parameters: Mapping[str, float]) -> dict[str, float]:

@@ -241,7 +241,8 @@ def test_a_model_file_and_numpy_say_the_same():
     assert theirs.method == "sr-cd-ckf" and file.options["substeps"] == 8
     table = {"time": data.t, "r": data.z[:, 0], "az": data.z[:, 1], "el": data.z[:, 2]}
     np.testing.assert_array_equal(file.smooth(table).mean, theirs.mean)
-    assert file.with_params(q=0.5).parameters["q"] == 0.5
+    changed = pickle.loads(pickle.dumps(file.with_params(q=0.5)))
+    assert changed.parameters["q"] == 0.5 and changed == file.with_params(q=0.5) and changed != file
     np.testing.assert_array_equal(gv.filter(file, None, data.t, data.z).mean, file.filter(data.t, data.z).mean)
 
 

@@ -314,3 +314,27 @@ def test_consistency_has_words():
     slow = MODEL.with_params(k=0.5)
     poor = gv.filter(slow, LENGTH, data.t, data.z, prior=PRIOR, t0=0.0).consistency()
     assert not poor.is_white and "the model misses something" in str(poor)
+
+
+def test_estimates_and_what_holds_them_travel():
+    est = run()
+    twin = pickle.loads(pickle.dumps(est))
+    same(twin, est)
+    with pytest.raises(gv.InputError, match="come from a pickle"):
+        twin.at([1.0])
+    batch = pickle.loads(pickle.dumps(run(z=np.stack([Z, Z]))))
+    assert batch.mean.shape == (2, 20, 2)
+
+
+def test_controls_hold_from_their_row_on_and_may_have_a_default():
+    def pushed(t, x, u=None):
+        return [x[1], u[0] if u is not None else 0.0]
+
+    model = gv.Sde(pushed, diffusion=[0.0, 1e-6], state=["x", "v"], controls=["force"])
+    u = np.where(T < 5, 1.0, -2.0)
+    est = gv.filter(model, LENGTH, T, np.full_like(Z, np.nan), prior=PRIOR, t0=0.0, u=u)
+    # the first one also holds before its row
+    v = np.concatenate([[u[0] * T[0]], u[0] * T[0] + np.cumsum(u[:-1] * np.diff(T))])
+    np.testing.assert_allclose(est.mean[:, 1], v, atol=1e-9)
+    free = gv.Sde(pushed, diffusion=[0.0, 1e-6], state=["x", "v"])
+    assert np.allclose(gv.filter(free, LENGTH, T, np.full_like(Z, np.nan), prior=PRIOR, t0=0.0).mean[:, 1], 0)

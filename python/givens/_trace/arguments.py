@@ -108,6 +108,9 @@ def read_arguments(
             takes_all = True
         elif name in given:
             parameters[name] = parameter_value(argument, name, given[name])
+        elif name in optional and len(positions) == len(required) + optional.index(name):
+            # `u=None` of a function that serves without controls too
+            positions.append(name)
         elif parameter.default is not parameter.empty:
             if _is_parameter(parameter.default):
                 parameters[name] = parameter_value(argument, name, parameter.default)

@@ -5,6 +5,7 @@ import math
 from dataclasses import dataclass
 from functools import partial
 from math import atan2, exp, hypot, sin, sqrt
+from typing import NamedTuple
 
 import helpers_elsewhere
 import numpy as np
@@ -446,3 +447,93 @@ named("a_callable", Aircraft(3.0))
 named("a_dataclass", _Pendulum())
 named("an_inherited_method", _Derived().drift)
 named("a_decorated_function", _doubled(a_list))
+
+
+class _Slots:
+    __slots__ = ("gain",)
+
+    def __init__(self, gain):
+        self.gain = gain
+
+    def drift(self, t, x):
+        y = np.zeros(3)
+        y[0] = self.gain * x[0]
+        return y
+
+
+class _Point(NamedTuple):
+    x: float
+    y: float
+
+    def distance(self):
+        return math.hypot(self.x, self.y)
+
+
+@dataclass
+class _State:
+    a: float
+    b: float
+    c: float
+
+    @classmethod
+    def of(cls, x):
+        return cls(*x)
+
+    def rates(self):
+        out = np.empty(3)
+        out[:] = [self.b, -self.a, math.sin(self.c)]
+        return out
+
+
+def _even(n, x):
+    return x[0] if n == 0 else _odd(n - 1, x)
+
+
+def _odd(n, x):
+    return math.sin(x[1]) if n == 0 else _even(n - 1, x)
+
+
+def _cosines(x):
+    for value in x:
+        yield math.cos(value)
+
+
+@functools.lru_cache
+def _eye(n):
+    return np.eye(n)
+
+
+@traced
+def a_named_tuple(t, x):
+    return [_Point(x[0], x[1]).distance(), *_Point(x[1], x[2])]
+
+
+@traced
+def a_state_class(t, x):
+    return _State.of(x).rates()
+
+
+@traced
+def mutual_recursion(t, x):
+    return [_even(4, x), _odd(4, x), _even(3, x)]
+
+
+@traced
+def a_generator_and_a_cache(t, x):
+    return _eye(3) @ np.array(list(_cosines(x)))
+
+
+@traced
+def guards_on_shapes(t, x):
+    if len(x) != 3 or x.ndim != 1 or t is None:
+        raise ValueError("three states")
+    x = np.asarray(x, dtype=np.float64) if isinstance(x, np.ndarray) else x
+    return x.astype(float) * 2
+
+
+@traced
+def lists_of_values(t, x):
+    return [np.linalg.norm([x[0], x[1]]), np.max([x[0], x[1]]) + np.dot([x[0], 1], [2, x[1]]), np.arctan2(*x[:2])]
+
+
+named("slots", _Slots(2.0).drift)

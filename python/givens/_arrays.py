@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Sequence
 from typing import Any
 
@@ -10,7 +11,7 @@ import numpy.typing as npt
 
 from givens.errors import InputError
 
-__all__ = ["Array", "frozen", "numbers", "shape_error", "square", "vector"]
+__all__ = ["Array", "frozen", "is_masked", "numbers", "shape_error", "square", "vector"]
 
 Array = npt.NDArray[np.float64]
 
@@ -22,10 +23,16 @@ def frozen(array: Array) -> Array:
     return own
 
 
+def is_masked(value: object) -> bool:
+    """Whether this is a masked array; their module is not imported to find out."""
+    masked: Any = sys.modules.get("numpy.ma")
+    return masked is not None and isinstance(value, masked.MaskedArray)
+
+
 def numbers(argument: str, value: Any) -> Array:
     """Anything like an array as 64-bit floats; what a mask hides is NaN."""
-    if isinstance(value, np.ma.MaskedArray):
-        return np.ma.filled(value.astype(np.float64), np.nan)
+    if is_masked(value):
+        return np.asarray(value.astype(np.float64).filled(np.nan))
     if hasattr(value, "to_numpy") and not isinstance(value, np.ndarray):
         value = value.to_numpy()
     try:

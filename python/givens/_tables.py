@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from givens._arrays import is_masked
 from givens._join import Joined
 from givens._names import known_name, listed
 from givens.errors import InputError
@@ -39,7 +40,7 @@ def _array(column: Any) -> np.ndarray[Any, Any]:
 
 def _floats(name: str, column: Any, rows: int) -> np.ndarray[Any, np.dtype[np.float64]]:
     """A column of numbers; what is null or masked is NaN."""
-    if isinstance(column, np.ma.MaskedArray):
+    if is_masked(column):
         column = column.filled(np.nan)
     array = _array(column)
     if array.shape != (rows,):

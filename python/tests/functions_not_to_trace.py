@@ -272,8 +272,8 @@ def an_incomplete_table(t, x):
 
 
 @refused(
-    "its expressions do not compute what it computes: component 'a' is 0.29052558927941424, but its expressions give "
-    "-0.29052558927941424 at t = 0.39456752816425023, x = [0.29052558927941424, 1.4300251540883153, 1.5033129086246291]",
+    "its expressions do not compute what it computes: component 'a' is 1.0403074299560306, but its expressions give "
+    "-1.0403074299560306 at t = 1.3092007913863868, x = [1.0403074299560306, 0.67966228007249896, 0.059912434184884074]",
     "values read from elsewhere must not change between calls, and branches must be np.where; or pass trace=False",
     line=0,
 )

@@ -48,29 +48,42 @@ def _digits(value: Any) -> str:
     return f"{value:.17g}"
 
 
-def _points(sizes: Sizes, values: Array, near: Array | None) -> Iterator[Point]:
-    """States of several sizes, of either sign and of positive sign; parameters at and around their values."""
-    from random import Random
+def _draws() -> tuple[Callable[[int], Array], Callable[[int], Array]]:
+    """Uniform and normal numbers, always the same: a generator of a library takes longer to import than all of this."""
+    state = 20090513
 
-    # Python's own generator: NumPy's takes longer to import than all of this
-    random = Random(20090513)
+    def uniform(length: int) -> Array:
+        nonlocal state
+        drawn = []
+        for _ in range(length):
+            # 64-bit linear congruential, multiplier of Knuth's MMIX
+            state = (6364136223846793005 * state + 1442695040888963407) % 2**64
+            drawn.append((state >> 11) / 2**53)
+        return np.array(drawn)
 
     def normal(length: int) -> Array:
-        return np.array([random.gauss() for _ in range(length)])
+        radius = np.sqrt(-2 * np.log1p(-uniform(length)))
+        turned: Array = radius * np.cos(2 * np.pi * uniform(length))
+        return turned
 
-    def uniform(low: float, high: float, length: int) -> Array:
-        return np.array([random.uniform(low, high) for _ in range(length)])
+    return uniform, normal
+
+
+def _points(sizes: Sizes, values: Array, near: Array | None) -> Iterator[Point]:
+    """States of several sizes, of either sign and of positive sign; parameters at and around their values."""
+    uniform, normal = _draws()
 
     def point(x: Array, u: Array, p: Array) -> Point:
-        return Point(random.uniform(0, 10), random.uniform(0.01, 1), x, u, p)
+        t, dt = uniform(2)
+        return Point(10 * t, 0.01 + 0.99 * dt, x, u, p)
 
     for scale in _SCALES:
         for k in range(_EACH):
             x, u = normal(sizes.states), normal(sizes.controls)
             x, u = (x, u) if k % 2 else (np.abs(x), np.abs(u))
-            yield point(scale * x, u, values * (uniform(0.8, 1.25, values.size) if k else 1.0))
+            yield point(scale * x, u, values * (0.8 + 0.45 * uniform(values.size) if k else 1.0))
     for k in range(_EACH if near is not None else 0):
-        x = np.asarray(near) * (1 + 0.1 * k * uniform(-1, 1, sizes.states))
+        x = np.asarray(near) * (1 + 0.1 * k * (2 * uniform(sizes.states) - 1))
         yield point(x, normal(sizes.controls), values)
 
 

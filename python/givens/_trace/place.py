@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import linecache
 import os
 import sys
 from dataclasses import dataclass
@@ -73,5 +72,7 @@ def _short(file: str) -> str:
 
 
 def _place(code: CodeType, line: int) -> Place:
+    import linecache
+
     source = linecache.getline(code.co_filename, line).strip() or None
     return Place(_name(code), code.co_filename, line, source)

@@ -262,11 +262,10 @@ class Model:
     def options(self) -> dict[str, str | float | bool]:
         """Parts and options of a model file."""
 
-    def begin(
-        self, time: _Array, z: _Array, u: _Array | None = None
-    ) -> tuple[float, _Array, _Array, int, bool]:
+    def begin(self, time: _Array, z: _Array, u: _Array | None = None) -> tuple[float, _Array, _Array, int, bool]:
         """Where rows of a model file's track begin: t0, mean, cov, the row there or the first after, and whether `start`
-        has read that row, which is not to be used again then."""
+        has read that row, which is not to be used again then.
+        """
 
     def drift(self, t: float, x: _Array, u: _Array | None = None) -> _Array:
         """f(t, x, u), length n."""

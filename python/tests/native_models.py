@@ -6,8 +6,9 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from givens._native import Choice, Function, Graph, Model
 from numpy.typing import NDArray
+
+from givens._native import Choice, Function, Graph, Model
 
 GOLDEN = Path(__file__).parents[2] / "tests" / "golden"
 

@@ -8,9 +8,10 @@ from typing import Any
 import native_models as m
 import numpy as np
 import pytest
+from native_models import MEAN, SPRING, STD, STEPS, TIME, Z, choose
+
 from givens import _native as native
 from givens.errors import GivensError
-from native_models import MEAN, SPRING, STD, STEPS, TIME, Z, choose
 
 NAN, INF = np.nan, np.inf
 #: What refuses an argument: never a panic, which is no `Exception`.
@@ -186,7 +187,10 @@ def test_models_refuse_absurd_sizes_and_inputs() -> None:
     refused(lambda: build(["x", "v"], -1, [2.0, 0.1]))
     refused(lambda: build(["x", "v"], 0, [2.0, 0.1], step=0.0), "not a positive number")
     refused(lambda: build(["x", "v"], 0, [2.0, 0.1], step=NAN), "not a positive number")
-    refused(lambda: native.Model.discrete(graph, ["x", "v"], 0, [2.0, 0.1], nodes.transition, [], None, []), "measures nothing")
+    refused(
+        lambda: native.Model.discrete(graph, ["x", "v"], 0, [2.0, 0.1], nodes.transition, [], None, []),
+        "measures nothing",
+    )
     called = m.called(m.drift)
     refused(lambda: m.continuous(drift=called, diffusion=[graph.step(), nodes.graph.step()]), "names a quantity")
 

@@ -8,15 +8,12 @@ from typing import Any
 import native_models as m
 import numpy as np
 import pytest
-from givens._native import Model, methods, run, run_batch, simulate
-from givens.errors import GivensError, InputError, MethodError, ModelError, StepError, TraceError
 from native_models import MEAN, SPRING, STD, STEPS, TIME, Z, choose
 
-WITHOUT = [
-    entry["name"]
-    for entry in methods()
-    if entry["rule"] != "taylor" and entry["time_update"] != "ito-taylor"
-]
+from givens._native import Model, methods, run, run_batch, simulate
+from givens.errors import GivensError, InputError, MethodError, ModelError, StepError, TraceError
+
+WITHOUT = [entry["name"] for entry in methods() if entry["rule"] != "taylor" and entry["time_update"] != "ito-taylor"]
 
 
 def solve(model: Model, method: str | None = None, z: Any = Z, **options: Any) -> Any:
@@ -157,9 +154,7 @@ def test_a_model_file_with_errors_tells_all_of_them_with_their_places() -> None:
 
 def test_a_track_of_several_that_fails_does_not_stop_the_others() -> None:
     good, bad = m.discrete(), Model.parse(STEPS.replace('"hypot(x, 1)"', '"sqrt(-1-x^2)"'))
-    tracks: list[Any] = [
-        (model, choose(None), MEAN, STD, 0.0, TIME, Z, None, None) for model in (good, bad, good)
-    ]
+    tracks: list[Any] = [(model, choose(None), MEAN, STD, 0.0, TIME, Z, None, None) for model in (good, bad, good)]
     one, two, three = run_batch(tracks, threads=2)
     assert two.failure is not None
     assert one.failure is None

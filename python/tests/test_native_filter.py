@@ -8,9 +8,10 @@ from typing import Any
 import native_models as m
 import numpy as np
 import pytest
+from native_models import MEAN, STD, TIME, Z, choose
+
 from givens._native import Filter, methods, run
 from givens.errors import GivensError, InputError, MethodError, StepError
-from native_models import MEAN, STD, TIME, Z, choose
 
 METHODS = [(entry["name"], entry["kind"]) for entry in methods()]
 
@@ -71,9 +72,7 @@ def test_controls_are_asked_for_and_set() -> None:
     nodes = m.Nodes()
     g = nodes.graph
     pushed = [nodes.transition[0], g.binary("add", nodes.transition[1], g.control(0))]
-    model = type(m.discrete()).discrete(
-        g, ["x", "v"], 1, [2.0, 0.1], pushed, nodes.noise_cov, None, nodes.sensors()
-    )
+    model = type(m.discrete()).discrete(g, ["x", "v"], 1, [2.0, 0.1], pushed, nodes.noise_cov, None, nodes.sensors())
     f = Filter.start(model, choose("sr-ckf"), MEAN, STD, 0.0)
     with pytest.raises(StepError, match="controls that were never set") as caught:
         f.predict(0.1)

@@ -8,8 +8,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from givens._native import Choice, Estimates, Model, read_tracks, run
 from native_models import GOLDEN
+
+from givens._native import Choice, Estimates, Model, read_tracks, run
 
 ROADS = [
     {"form": "covariance"},
@@ -61,7 +62,9 @@ def error(mean: Any, cov: Any, golden_mean: list[float], golden_cov: list[float]
 
 @pytest.mark.parametrize("road", ROADS, ids=["covariance", "joint", "separate"])
 @pytest.mark.parametrize("name", BOUNDS)
-@pytest.mark.parametrize("rule", ["cubature3", "cubature5", "unscented", "gauss_hermite3", "central_difference", "taylor"])
+@pytest.mark.parametrize(
+    "rule", ["cubature3", "cubature5", "unscented", "gauss_hermite3", "central_difference", "taylor"]
+)
 def test_filters_and_smoothers_give_the_numbers_of_the_oracle(name: str, rule: str, road: dict[str, str]) -> None:
     filter_bound, smoother_bound = BOUNDS[name]
     golden = scenario(name)[2]["filters"][rule]

@@ -9,8 +9,9 @@ from typing import Any
 import native_models as m
 import numpy as np
 import pytest
-from givens._native import Estimates, Function, Model, methods, run, simulate
 from native_models import MEAN, SPRING, STD, STEPS, TIME, Z, choose
+
+from givens._native import Estimates, Function, Model, methods, run, simulate
 
 CONTINUOUS = [entry["name"] for entry in methods() if entry["kind"] == "continuous"]
 DISCRETE = [entry["name"] for entry in methods() if entry["kind"] == "discrete"]

@@ -2,9 +2,12 @@
 
 mod dual;
 mod float;
+mod math;
+mod pack;
 mod shown;
 
 pub use dual::{Dual2, as_duals};
+pub use pack::{Element, InstructionSet, Job, LaneMask, MAX_WIDTH, Pack, gather, scatter};
 pub use shown::Shown;
 
 use core::fmt::Debug;

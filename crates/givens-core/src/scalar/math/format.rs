@@ -13,6 +13,7 @@ pub trait Format: Copy {
     /// 2^s + 1 with s half of the digits: a product by it splits a float in two.
     const SPLITTER: f64;
     /// π/2 in parts so short that their products with the quarter turns of any angle up to the limit are exact; the limit.
+    /// All parts are positive, so that −0 stays −0.
     const HALF_PI: (&'static [f64], f64);
     /// π/2 in parts of full length, for fused products; the limit.
     const HALF_PI_FUSED: (&'static [f64], f64);
@@ -73,7 +74,7 @@ impl Format for f64 {
     const MAGIC: f64 = 6_755_399_441_055_744.0;
     const SPLITTER: f64 = 134_217_729.0;
     const HALF_PI: (&'static [f64], f64) = (&[1.570_796_326_734_125_6, 6.077_100_506_303_966e-11, 2.022_266_248_711_166_5e-21, 8.478_427_660_368_9e-32], 1e6);
-    const HALF_PI_FUSED: (&'static [f64], f64) = (&[1.570_796_326_794_896_6, 6.123_233_995_736_766e-17, -1.497_384_904_859_169_8e-33], 1e9);
+    const HALF_PI_FUSED: (&'static [f64], f64) = (&[1.570_796_326_794_896_6, 6.123_233_995_736_765e-17, 1.082_856_673_921_913_9e-32], 1e9);
     const PI: (f64, f64) = (core::f64::consts::PI, 1.224_646_799_147_353_2e-16);
     const HUGE: f64 = 1e300;
     const EXP_RANGE: (f64, f64) = (-746.0, 711.0);
@@ -108,8 +109,8 @@ impl Format for f32 {
     const BIAS: f64 = 127.0;
     const MAGIC: f64 = 12_582_912.0;
     const SPLITTER: f64 = 4097.0;
-    const HALF_PI: (&'static [f64], f64) = (&[1.570_800_781_25, -4.454_515_874_385_834e-6, 6.076_561_476_220_377e-11, 5.390_653_201_597_928e-15, -3.503_434_304_058_558e-19], 2000.0);
-    const HALF_PI_FUSED: (&'static [f64], f64) = (&[1.570_796_370_506_286_6, -4.371_138_828_673_793e-8, -1.715_124_510_005_881_9e-15], 6e4);
+    const HALF_PI: (&'static [f64], f64) = (&[1.570_556_640_625, 0.000_239_670_276_641_845_7, 1.589_069_142_937_660_2e-8, 2.563_282_919_254_561_4e-12, 6.123_233_601_181_349e-17], 2000.0);
+    const HALF_PI_FUSED: (&'static [f64], f64) = (&[1.570_796_251_296_997, 7.549_789_415_861_596e-8, 5.390_302_529_957_765e-15], 6e4);
     const PI: (f64, f64) = (3.141_592_741_012_573_2, -8.742_277_657_347_586e-8);
     const HUGE: f64 = 1e37;
     const EXP_RANGE: (f64, f64) = (-105.0, 90.0);

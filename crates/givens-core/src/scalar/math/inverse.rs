@@ -14,7 +14,7 @@ pub(in crate::scalar) fn atan2<T: Lanes>(y: T, x: T) -> T {
     // the sum must not overflow
     let scale = T::select(T::of(T::Element::HUGE).lt(large), T::of(0.25), T::one());
     let (large, small) = (large * scale, small * scale);
-    let between = (large * T::of(0.55)).lt(small) | small.same(T::of(f64::INFINITY));
+    let between = large.le(small * T::of(1.0 / 0.55)) & T::zero().lt(large);
     let top = T::select(between, small - large, small);
     let bottom = T::select(between, small + large, large);
     // equal: also 0/0 and ∞/∞

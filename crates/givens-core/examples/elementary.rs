@@ -4,8 +4,8 @@
 //!     cargo run --release -p givens-core --example elementary
 #![allow(clippy::print_stdout, reason = "it is a table")]
 
+use core::hint::black_box;
 use givens_core::scalar::{Element, InstructionSet, Job, Pack, Real};
-use std::hint::black_box;
 use std::time::Instant;
 
 const NUMBERS: usize = 1024;
@@ -78,9 +78,11 @@ fn row<E: Element, const FUNCTION: usize>() {
 }
 
 fn table<E: Element>(precision: &str) {
-    let sets = InstructionSet::ALL.into_iter().filter(|set| set.available());
-    let sets: String = sets.map(|set| format!(" {:>9}", format!("{set:?}"))).collect();
-    println!("{precision:>8}  platform{sets}");
+    print!("{precision:>8}  platform");
+    for set in InstructionSet::ALL.into_iter().filter(|set| set.available()) {
+        print!(" {:>9}", format!("{set:?}"));
+    }
+    println!();
     row::<E, 0>();
     row::<E, 1>();
     row::<E, 2>();

@@ -1,4 +1,5 @@
-//! The scalar of every model and kernel: `f64`, `f32`, and second-order duals over either; later, SIMD packs.
+//! The scalar of every model and kernel: `f64`, `f32`, packs of several side by side, and second-order duals over any
+//! of these.
 
 mod dual;
 mod float;

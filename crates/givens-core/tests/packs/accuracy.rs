@@ -10,7 +10,8 @@ use super::reference::{Point, points};
 use givens_core::scalar::{InstructionSet, Pack, Real};
 
 pub const FUNCTIONS: [&str; 15] = [
-    "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "exp", "ln", "log10", "sinh", "cosh", "tanh", "pow", "hypot",
+    "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "exp", "ln", "log10", "sinh", "cosh", "tanh",
+    "pow", "hypot",
 ];
 
 /// The function of that name; those of one number ignore y.
@@ -42,7 +43,11 @@ fn floats(name: &str) -> Vec<Point> {
             let (x, y) = (f32::from_bits(i * 40_961), f32::from_bits(i.wrapping_mul(2_654_435_761)));
             let (x, y) = (f64::from(x), f64::from(y));
             // powers that neither vanish nor overflow, of the same bases
-            let y = if name == "pow" { f64::from((y.to_bits() % 997) as f32 / x.abs().ln() as f32 * 0.09) } else { y };
+            let y = if name == "pow" {
+                f64::from((y.to_bits() % 997) as f32 / x.abs().ln() as f32 * 0.09)
+            } else {
+                y
+            };
             Point { x, y, hi: function(name, x, y), lo: 0.0 }
         })
         .collect()
@@ -52,7 +57,8 @@ fn floats(name: &str) -> Vec<Point> {
 fn worst<P: Pack>(name: &str, points: &[Point]) -> (f64, f64, f64) {
     let mut worst = (0.0, 0.0, 0.0);
     for chunk in points.chunks(P::WIDTH) {
-        let load = |of: fn(&Point) -> f64| P::load(&chunk.iter().map(|p| P::Element::of(of(p))).collect::<Vec<_>>());
+        let load =
+            |of: fn(&Point) -> f64| P::load(&chunk.iter().map(|p| P::Element::of(of(p))).collect::<Vec<_>>());
         let result = function(name, load(|p| p.x), load(|p| p.y));
         let mut lanes = vec![P::Element::zero(); P::WIDTH];
         result.store(&mut lanes);

@@ -39,7 +39,8 @@ pub fn numbers<E: Element>() -> Vec<E> {
     });
     let least = 2f64.powi(if E::EPSILON > 1e-10 { -149 } else { -1074 });
     let most = if E::EPSILON > 1e-10 { f64::from(f32::MAX) } else { f64::MAX };
-    let special = [0.0, 1.0, 0.5, 2.0, 1.5, 2.5, 3.0, 7.0, least, 1000.0 * least, most, f64::INFINITY, 1e6, 0.7];
+    let special =
+        [0.0, 1.0, 0.5, 2.0, 1.5, 2.5, 3.0, 7.0, least, 1000.0 * least, most, f64::INFINITY, 1e6, 0.7];
     let special = special.into_iter().flat_map(|x| [x, -x]).chain([f64::NAN]);
     ordinary.chain(special).map(E::of).collect()
 }

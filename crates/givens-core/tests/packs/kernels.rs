@@ -26,7 +26,10 @@ fn alike<P: Pack>(
         for (i, x) in lane.iter().enumerate() {
             let (found, expected) = (packs[i].lane(l).first(), x.first());
             // rounding alone, which a fused product changes
-            assert!((found - expected).abs() <= 200.0 * P::EPSILON, "element {i} of lane {l}: {found} {expected}");
+            assert!(
+                (found - expected).abs() <= 200.0 * P::EPSILON,
+                "element {i} of lane {l}: {found} {expected}"
+            );
         }
     }
 }

@@ -11,7 +11,23 @@ fn edges<P: Pack>() -> Vec<P::Element> {
         if single { (-149, -126, f64::from(f32::MAX)) } else { (-1074, -1022, f64::MAX) };
     let power = |e: i32| 2f64.powi(e / 2) * 2f64.powi(e - e / 2);
     let ends = [power(least), 3.0 * power(least), power(normal), most, most / 2.0, f64::INFINITY, 0.0];
-    let ordinary = [1.0, 0.5, 2.0, 3.0, 0.55, 1e-3, 1e-9, 22.5, 1e5, 1e7, 1e10, 1e30, 2.5, 2f64.powi(24), 2f64.powi(53) - 1.0];
+    let ordinary = [
+        1.0,
+        0.5,
+        2.0,
+        3.0,
+        0.55,
+        1e-3,
+        1e-9,
+        22.5,
+        1e5,
+        1e7,
+        1e10,
+        1e30,
+        2.5,
+        2f64.powi(24),
+        2f64.powi(53) - 1.0,
+    ];
     let limits: [f64; 6] = if single {
         [88.722_83, 88.722_85, 87.336_5, 103.972, 103.98, 89.415_98]
     } else {
@@ -31,7 +47,8 @@ impl Check for Edges {
                     let result = function(name, P::splat(x), P::load(ys));
                     for (l, &y) in ys.iter().enumerate() {
                         let (found, platform) = (result.lane(l), function(name, x, y));
-                        let said = format!("{set:?} {name}({x:?}, {y:?}): {found:?}, the platform has {platform:?}");
+                        let said =
+                            format!("{set:?} {name}({x:?}, {y:?}): {found:?}, the platform has {platform:?}");
                         let (a, b) = (found.first(), platform.first());
                         assert!(a.is_nan() == b.is_nan() && a.is_infinite() == b.is_infinite(), "{said}");
                         assert!(a.is_nan() || a.is_sign_negative() == b.is_sign_negative(), "{said}");
@@ -52,7 +69,8 @@ fn the_ends_of_the_range_are_those_of_the_platform() {
 struct Neighbours;
 impl Check for Neighbours {
     fn holds<P: Pack>(_: InstructionSet) {
-        let lanes: Vec<_> = (0..P::WIDTH).map(|l| P::Element::of(0.1 + 0.8 * l as f64 / P::WIDTH as f64)).collect();
+        let lanes: Vec<_> =
+            (0..P::WIDTH).map(|l| P::Element::of(0.1 + 0.8 * l as f64 / P::WIDTH as f64)).collect();
         let (x, y) = (P::load(&lanes), P::of(0.7));
         for name in FUNCTIONS {
             let undisturbed = function(name, x, y);

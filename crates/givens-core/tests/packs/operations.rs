@@ -4,7 +4,11 @@ use super::every_set::{Check, every_pack, identical, numbers};
 use givens_core::scalar::{InstructionSet, LaneMask, Mask, Pack, Real};
 
 /// `pack` of the pairs, and `float` of every pair.
-fn alike<P: Pack>(name: &str, pack: impl Fn(P, P) -> P, float: impl Fn(P::Element, P::Element) -> P::Element) {
+fn alike<P: Pack>(
+    name: &str,
+    pack: impl Fn(P, P) -> P,
+    float: impl Fn(P::Element, P::Element) -> P::Element,
+) {
     let all = numbers::<P::Element>();
     for shift in [0, 1, 7, 40, 133] {
         let others: Vec<_> = (0..all.len()).map(|i| all[(i + shift) % all.len()]).collect();
@@ -13,7 +17,12 @@ fn alike<P: Pack>(name: &str, pack: impl Fn(P, P) -> P, float: impl Fn(P::Elemen
             for i in 0..x.len() {
                 let expected = float(x[i], y[i]);
                 let found = result.lane(i);
-                assert!(identical(found, expected), "{name}({:?}, {:?}): {found:?}, not {expected:?}", x[i], y[i]);
+                assert!(
+                    identical(found, expected),
+                    "{name}({:?}, {:?}): {found:?}, not {expected:?}",
+                    x[i],
+                    y[i]
+                );
             }
         }
     }
@@ -35,14 +44,35 @@ impl Check for Arithmetic {
         alike::<P>("sqrt", |x, _| x.sqrt(), |x, _| x.sqrt());
         alike::<P>("recip", |x, _| x.recip(), |x, _| x.recip());
         alike::<P>("abs", |x, _| x.abs(), |x, _| x.abs());
-        alike::<P>("copysign", P::copysign, |x, y| x.copysign(y));
+        alike::<P>("copysign", P::copysign, P::Element::copysign);
         alike::<P>("floor", |x, _| x.floor(), |x, _| x.floor());
-        alike::<P>("max", P::max, |x, y| x.max(y));
-        alike::<P>("min", P::min, |x, y| x.min(y));
+        alike::<P>("max", P::max, P::Element::max);
+        alike::<P>("min", P::min, P::Element::min);
         alike::<P>("sign", |x, _| x.sign(), |x, _| x.sign());
-        alike::<P>("+=", |mut x, y| { x += y; x }, |x, y| x + y);
-        alike::<P>("−=", |mut x, y| { x -= y; x }, |x, y| x - y);
-        alike::<P>("·=", |mut x, y| { x *= y; x }, |x, y| x * y);
+        alike::<P>(
+            "+=",
+            |mut x, y| {
+                x += y;
+                x
+            },
+            |x, y| x + y,
+        );
+        alike::<P>(
+            "−=",
+            |mut x, y| {
+                x -= y;
+                x
+            },
+            |x, y| x - y,
+        );
+        alike::<P>(
+            "·=",
+            |mut x, y| {
+                x *= y;
+                x
+            },
+            |x, y| x * y,
+        );
         for e in [0, 1, 2, 3, 7, -1, -2, 13, i32::MAX, i32::MIN] {
             alike::<P>("powi", |x, _| x.powi(e), |x, _| x.powi(e));
         }
@@ -87,8 +117,16 @@ impl Check for Comparisons {
         alike::<P>("le", |x, y| told(x.le(y)), |x, y| as_number(x.le(y)));
         alike::<P>("same", |x, y| told(x.same(y)), |x, y| as_number(x.same(y)));
         alike::<P>("not", |x, y| told(!x.lt(y)), |x, y| as_number(!x.lt(y)));
-        alike::<P>("and", |x, y| told(x.lt(y) & y.lt(P::one())), |x, y| as_number(x.lt(y) & y.lt(P::Element::one())));
-        alike::<P>("or", |x, y| told(x.lt(y) | y.lt(P::one())), |x, y| as_number(x.lt(y) | y.lt(P::Element::one())));
+        alike::<P>(
+            "and",
+            |x, y| told(x.lt(y) & y.lt(P::one())),
+            |x, y| as_number(x.lt(y) & y.lt(P::Element::one())),
+        );
+        alike::<P>(
+            "or",
+            |x, y| told(x.lt(y) | y.lt(P::one())),
+            |x, y| as_number(x.lt(y) | y.lt(P::Element::one())),
+        );
         alike::<P>("finite", |x, _| told(x.finite()), |x, _| as_number(x.finite()));
         alike::<P>("select", |x, y| P::select(x.lt(y), x, y), |x, y| if x.lt(y) { x } else { y });
     }

@@ -24,7 +24,8 @@ fn reduced<T: Lanes>(x: T, fused: bool) -> (T, T, T) {
     let far = T::of(limit).lt(size) & size.lt(T::of(f64::INFINITY));
     if far.any() {
         let zero = T::Element::of_f64(0.0);
-        let (mut arguments, mut quadrants, mut rests) = ([zero; MAX_WIDTH], [zero; MAX_WIDTH], [zero; MAX_WIDTH]);
+        let (mut arguments, mut quadrants, mut rests) =
+            ([zero; MAX_WIDTH], [zero; MAX_WIDTH], [zero; MAX_WIDTH]);
         x.store(&mut arguments);
         huge::reduce(&mut arguments[..T::WIDTH], &mut quadrants, &mut rests);
         quadrant = T::select(far, T::load(&quadrants) + T::of(T::Element::MAGIC), quadrant);

@@ -57,7 +57,7 @@ fn remainder(x: f64) -> (f64, f64, f64) {
     let middle = mantissa * window(1) + (low >> 64);
     let high = (mantissa * window(0) + (middle >> 64)) & u128::from(u64::MAX);
     let (middle, low) = (middle & u128::from(u64::MAX), low & u128::from(u64::MAX));
-    let fraction = ((high << 64 | middle) << 2 | low >> 62) as i128;
+    let fraction = ((high << 64 | middle) << 2 | low >> 62).cast_signed();
     let quarters = (high >> 62) as u32 + u32::from(fraction < 0);
     let unit = f64::from_bits((1023 - 128) << 52);
     let upper = fraction as f64;
@@ -72,9 +72,5 @@ fn remainder(x: f64) -> (f64, f64, f64) {
     let rest = error + upper * c_rest + lower * c;
     let hi = product + rest;
     let lo = rest - (hi - product);
-    if x < 0.0 {
-        (f64::from((4 - quarters % 4) % 4), -hi, -lo)
-    } else {
-        (f64::from(quarters % 4), hi, lo)
-    }
+    if x < 0.0 { (f64::from((4 - quarters % 4) % 4), -hi, -lo) } else { (f64::from(quarters % 4), hi, lo) }
 }

@@ -16,7 +16,8 @@ fn parts<T: Lanes>(x: T) -> (T, T) {
     let moved = lifted.plus(T::pattern(one - root));
     // the exponent as the lowest bits of 2^mantissa, which is a whole number of floats
     let whole = T::of(T::Element::MAGIC / 1.5);
-    let exponent = moved.shifted_down(T::Element::MANTISSA).or(whole) - T::of(T::Element::MAGIC / 1.5 + T::Element::BIAS);
+    let exponent = moved.shifted_down(T::Element::MANTISSA).or(whole)
+        - T::of(T::Element::MAGIC / 1.5 + T::Element::BIAS);
     let m = moved.and(T::pattern((1 << T::Element::MANTISSA) - 1)).plus(T::pattern(root));
     (exponent - lift, m)
 }

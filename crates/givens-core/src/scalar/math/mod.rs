@@ -16,8 +16,8 @@ mod two;
 
 pub(super) use circular::{sin_cos, tan};
 pub(super) use exponential::{cosh, exp, sinh, tanh};
-pub(super) use inverse::{acos, asin, atan, atan2};
 pub(super) use format::Format;
+pub(super) use inverse::{acos, asin, atan, atan2};
 pub(super) use logarithm::{ln, log10};
 pub(super) use power::{hypot, pow, powi};
 

@@ -1,10 +1,10 @@
 //! Powers and the length of a vector.
 
+use super::Lanes;
 use super::exponential::exp_of;
 use super::format::Format;
 use super::logarithm::ln_twice;
 use super::two::Two;
-use super::Lanes;
 use crate::scalar::Real;
 
 /// e^(y ln |x|), the logarithm in twice the digits; its sign and the special cases are those of C's `pow`.

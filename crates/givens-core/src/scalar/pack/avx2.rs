@@ -6,6 +6,7 @@ use super::register::{apply, register, truths};
 use super::{LaneMask, MAX_WIDTH, Pack, padded};
 use crate::scalar::math::{self, Lanes};
 use crate::scalar::{Mask, Real};
+#[allow(clippy::wildcard_imports, reason = "a hundred names of instructions, all with their prefix")]
 use core::arch::x86_64::*;
 use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
@@ -13,14 +14,14 @@ use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 #[inline(always)]
 fn count(by: u32) -> __m128i {
     // SAFETY: SSE2 is part of every x86-64.
-    unsafe { _mm_cvtsi32_si128(by as i32) }
+    unsafe { _mm_cvtsi32_si128(by.cast_signed()) }
 }
 
 register! {
     /// Four `f64`.
     Avx2F64: 4 x f64 in __m256d, mask Avx2F64Mask,
     load [_mm256_loadu_pd], store [_mm256_storeu_pd], splat [_mm256_set1_pd],
-    pattern [|bits| _mm256_castsi256_pd(_mm256_set1_epi64x(bits as i64))],
+    pattern [|bits| _mm256_castsi256_pd(_mm256_set1_epi64x(bits.cast_signed()))],
     add [_mm256_add_pd], sub [_mm256_sub_pd], mul [_mm256_mul_pd], div [_mm256_div_pd], fused [_mm256_fmadd_pd], sqrt [_mm256_sqrt_pd],
     floor [_mm256_floor_pd],
     lt [_mm256_cmp_pd::<_CMP_LT_OQ>], le [_mm256_cmp_pd::<_CMP_LE_OQ>], eq [_mm256_cmp_pd::<_CMP_EQ_OQ>],
@@ -62,7 +63,7 @@ truths! {
     not [|a| _mm256_xor_ps(a, _mm256_castsi256_ps(_mm256_set1_epi32(-1)))],
     bits [|a| _mm256_movemask_ps(a) as u32],
     of [|bits| {
-        let each = _mm256_and_si256(_mm256_set1_epi32(bits as i32), _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128));
+        let each = _mm256_and_si256(_mm256_set1_epi32(bits.cast_signed()), _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128));
         _mm256_castsi256_ps(_mm256_cmpgt_epi32(each, _mm256_setzero_si256()))
     }]
 }

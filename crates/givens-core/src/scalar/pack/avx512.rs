@@ -6,6 +6,7 @@ use super::register::{apply, register, truths};
 use super::{LaneMask, MAX_WIDTH, Pack, padded};
 use crate::scalar::math::{self, Lanes};
 use crate::scalar::{Mask, Real};
+#[allow(clippy::wildcard_imports, reason = "a hundred names of instructions, all with their prefix")]
 use core::arch::x86_64::*;
 use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
@@ -13,7 +14,7 @@ use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 #[inline(always)]
 fn count(by: u32) -> __m128i {
     // SAFETY: SSE2 is part of every x86-64.
-    unsafe { _mm_cvtsi32_si128(by as i32) }
+    unsafe { _mm_cvtsi32_si128(by.cast_signed()) }
 }
 
 const DOWN: i32 = _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC;
@@ -22,7 +23,7 @@ register! {
     /// Eight `f64`.
     Avx512F64: 8 x f64 in __m512d, mask Avx512F64Mask,
     load [_mm512_loadu_pd], store [_mm512_storeu_pd], splat [_mm512_set1_pd],
-    pattern [|bits| _mm512_castsi512_pd(_mm512_set1_epi64(bits as i64))],
+    pattern [|bits| _mm512_castsi512_pd(_mm512_set1_epi64(bits.cast_signed()))],
     add [_mm512_add_pd], sub [_mm512_sub_pd], mul [_mm512_mul_pd], div [_mm512_div_pd], fused [_mm512_fmadd_pd], sqrt [_mm512_sqrt_pd],
     floor [_mm512_roundscale_pd::<DOWN>],
     lt [_mm512_cmp_pd_mask::<_CMP_LT_OQ>], le [_mm512_cmp_pd_mask::<_CMP_LE_OQ>], eq [_mm512_cmp_pd_mask::<_CMP_EQ_OQ>],

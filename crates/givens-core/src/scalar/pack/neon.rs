@@ -6,6 +6,7 @@ use super::register::{apply, register, truths};
 use super::{LaneMask, MAX_WIDTH, Pack, padded};
 use crate::scalar::math::{self, Lanes};
 use crate::scalar::{Mask, Real};
+#[allow(clippy::wildcard_imports, reason = "a hundred names of instructions, all with their prefix")]
 use core::arch::aarch64::*;
 use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
@@ -41,8 +42,8 @@ register! {
     or [|a, b| vreinterpretq_f32_u32(vorrq_u32(vreinterpretq_u32_f32(a), vreinterpretq_u32_f32(b)))],
     xor [|a, b| vreinterpretq_f32_u32(veorq_u32(vreinterpretq_u32_f32(a), vreinterpretq_u32_f32(b)))],
     plus [|a, b| vreinterpretq_f32_u32(vaddq_u32(vreinterpretq_u32_f32(a), vreinterpretq_u32_f32(b)))],
-    up [|a, by| vreinterpretq_f32_u32(vshlq_u32(vreinterpretq_u32_f32(a), vdupq_n_s32(by as i32)))],
-    down [|a, by| vreinterpretq_f32_u32(vshlq_u32(vreinterpretq_u32_f32(a), vdupq_n_s32(-(by as i32))))]
+    up [|a, by| vreinterpretq_f32_u32(vshlq_u32(vreinterpretq_u32_f32(a), vdupq_n_s32(by.cast_signed())))],
+    down [|a, by| vreinterpretq_f32_u32(vshlq_u32(vreinterpretq_u32_f32(a), vdupq_n_s32(-(by.cast_signed()))))]
 }
 
 truths! {

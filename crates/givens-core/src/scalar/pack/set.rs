@@ -22,7 +22,8 @@ pub enum InstructionSet {
 /// Work written once for packs of any width: what [`InstructionSet::run`] calls with the pack of that set.
 ///
 /// The whole loop belongs into `run`, and `#[inline(always)]` on it and on all that it calls: code that is not
-/// inlined is compiled for the oldest machine.
+/// inlined is compiled for the oldest machine, where every operation of a pack is a call. A closure cannot be marked
+/// so; one that is called in several places, or passed on by reference (`for_each(&mut f)`), had better be a function.
 pub trait Job<E: Element> {
     /// What the work gives.
     type Output;

@@ -1,10 +1,14 @@
-//! The scalar of every model and kernel: `f64`, `f32`, and second-order duals over either; later, SIMD packs.
+//! The scalar of every model and kernel: `f64`, `f32`, packs of several side by side, and second-order duals over any
+//! of these.
 
 mod dual;
 mod float;
+mod math;
+mod pack;
 mod shown;
 
 pub use dual::{Dual2, as_duals};
+pub use pack::{Element, InstructionSet, Job, LaneMask, MAX_WIDTH, Pack, gather, scatter};
 pub use shown::Shown;
 
 use core::fmt::Debug;

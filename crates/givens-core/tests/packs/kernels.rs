@@ -1,0 +1,111 @@
+//! The kernels on packs, lane by lane as on floats.
+
+use super::every_set::{Check, every_pack};
+use givens_core::kernels::{cholesky, solve_lower, sweep, tria};
+use givens_core::scalar::{InstructionSet, Mask, Pack, Real};
+
+/// Reproducible numbers in (−1, 1), another sequence for every lane and element.
+fn noise(lane: usize, i: usize) -> f64 {
+    ((lane * 977 + i * 131 + 17) as f64 * 0.618_033_988_749_895).fract() * 2.0 - 1.0
+}
+
+/// Runs `kernel` over packs and over each lane alone; `fill` gives element i of a lane.
+fn alike<P: Pack>(
+    length: usize,
+    fill: impl Fn(usize, usize) -> f64,
+    packed: impl Fn(&mut [P]) -> bool,
+    alone: impl Fn(&mut [P::Element]) -> bool,
+) {
+    let lanes: Vec<Vec<P::Element>> =
+        (0..P::WIDTH).map(|l| (0..length).map(|i| P::Element::of(fill(l, i))).collect()).collect();
+    let mut packs: Vec<P> =
+        (0..length).map(|i| P::load(&lanes.iter().map(|lane| lane[i]).collect::<Vec<_>>())).collect();
+    assert!(packed(&mut packs));
+    for (l, mut lane) in lanes.into_iter().enumerate() {
+        assert!(alone(&mut lane));
+        for (i, x) in lane.iter().enumerate() {
+            let (found, expected) = (packs[i].lane(l).first(), x.first());
+            // rounding alone, which a fused product changes
+            assert!(
+                (found - expected).abs() <= 200.0 * P::EPSILON,
+                "element {i} of lane {l}: {found} {expected}"
+            );
+        }
+    }
+}
+
+struct Kernels;
+impl Check for Kernels {
+    fn holds<P: Pack>(_: InstructionSet) {
+        let (n, k) = (7, 22);
+        let well = |health: P::Mask| !health.any();
+        alike::<P>(n * k, noise, |a| well(tria(a, n, k, k).sick), |a| !tria(a, n, k, k).sick);
+        // a lower factor with a good diagonal
+        let factor = |l: usize, i: usize, n: usize| match (i / n, i % n) {
+            (row, column) if row == column => 1.5 + 0.5 * noise(l, i),
+            (row, column) if row > column => 0.4 * noise(l, i),
+            _ => 0.0,
+        };
+        let (d, n) = (3, 5);
+        let size = d + n;
+        let block = move |l: usize, i: usize| {
+            let (row, column) = (i / size, i % size);
+            if row < d && column >= d { noise(l, i) } else { factor(l, i, size) }
+        };
+        alike::<P>(
+            size * size,
+            block,
+            |a| well(sweep(a, d, n, &mut vec![P::zero(); n]).sick),
+            |a| !sweep(a, d, n, &mut vec![P::Element::zero(); n]).sick,
+        );
+        let covariance = move |l: usize, i: usize| -> f64 {
+            let (row, column) = (i / n, i % n);
+            (0..n).map(|j| factor(l, row * n + j, n) * factor(l, column * n + j, n)).sum()
+        };
+        alike::<P>(n * n, covariance, |a| well(cholesky(a, n).sick), |a| !cholesky(a, n).sick);
+        let system = move |l: usize, i: usize| if i < n * n { factor(l, i, n) } else { noise(l, i) };
+        alike::<P>(
+            n * n + n,
+            system,
+            |a| {
+                let (factor, b) = a.split_at_mut(n * n);
+                solve_lower(factor, n, b);
+                true
+            },
+            |a| {
+                let (factor, b) = a.split_at_mut(n * n);
+                solve_lower(factor, n, b);
+                true
+            },
+        );
+    }
+}
+
+#[test]
+fn the_kernels_run_on_packs_as_on_floats() {
+    every_pack::<Kernels>();
+}
+
+struct OneSick;
+impl Check for OneSick {
+    fn holds<P: Pack>(_: InstructionSet) {
+        // [4 2; 2 3] in every lane, but in one without a root, and in one with a NaN
+        for sick in 0..P::WIDTH {
+            let mut a = [4.0, 2.0, 2.0, 3.0].map(P::of);
+            a[3] = a[3].with_lane(sick, P::Element::of(if sick % 2 == 0 { -1.0 } else { f64::NAN }));
+            let health = cholesky(&mut a, 2);
+            for l in 0..P::WIDTH {
+                let expected = if l == sick { 0.0 } else { 1.0 };
+                assert_eq!(P::select(health.sick, P::zero(), P::one()).lane(l).first(), expected);
+                if l != sick {
+                    assert!((a[3].lane(l).first() - 2f64.sqrt()).abs() < 4.0 * P::EPSILON);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_lane_that_fails_leaves_its_neighbours_alone() {
+    every_pack::<OneSick>();
+}

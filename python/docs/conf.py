@@ -1,0 +1,59 @@
+"""How the site of the Python package is built: ``sphinx-build -W --keep-going -j auto python/docs OUT``.
+
+Every page that holds code is executed, and a page that fails ends the build.
+"""
+
+from importlib import metadata
+
+project = "givens"
+author = "The givens developers"
+copyright = author
+try:
+    version = release = metadata.version("givens")
+except metadata.PackageNotFoundError:
+    # run from the source tree
+    version = release = "0.1.0"
+
+extensions = [
+    "myst_nb",
+    "sphinx.ext.autodoc",
+    "sphinx.ext.autosummary",
+    "sphinx.ext.napoleon",
+    "sphinx.ext.mathjax",
+]
+exclude_patterns = ["_build", "README.md"]
+
+# Pages are run afresh each time: a page that was right once is no proof.
+nb_execution_mode = "force"
+nb_execution_raise_on_error = True
+nb_execution_timeout = 60
+nb_execution_excludepatterns = ["index.md", "api/*", "guide/index.md", "examples/index.md"]
+nb_merge_streams = True
+nb_number_source_lines = False
+myst_enable_extensions = ["dollarmath", "colon_fence"]
+myst_heading_anchors = 3
+
+autosummary_generate = False
+autodoc_member_order = "bysource"
+autodoc_typehints = "none"
+autodoc_default_options = {"members": True, "show-inheritance": True}
+napoleon_google_docstring = False
+napoleon_use_ivar = True
+napoleon_use_rtype = False
+add_module_names = False
+python_use_unqualified_type_names = True
+default_role = "any"
+
+html_theme = "pydata_sphinx_theme"
+html_title = "givens"
+html_static_path = ["_static"]
+html_css_files = ["givens.css"]
+html_show_sourcelink = False
+html_sidebars = {"start": [], "index": []}
+html_theme_options = {
+    "show_nav_level": 1,
+    "navigation_with_keys": False,
+    "secondary_sidebar_items": ["page-toc"],
+    "footer_start": ["copyright"],
+    "footer_end": ["theme-version"],
+}

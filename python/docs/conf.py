@@ -3,7 +3,9 @@
 Every page that holds code is executed, and a page that fails ends the build.
 """
 
+import re
 from importlib import metadata
+from typing import Any
 
 project = "givens"
 author = "The givens developers"
@@ -38,11 +40,11 @@ autodoc_member_order = "bysource"
 autodoc_typehints = "none"
 autodoc_default_options = {"members": True, "show-inheritance": True}
 napoleon_google_docstring = False
-napoleon_use_ivar = True
+napoleon_use_ivar = False
 napoleon_use_rtype = False
 add_module_names = False
 python_use_unqualified_type_names = True
-default_role = "any"
+default_role = "py:obj"
 
 html_theme = "pydata_sphinx_theme"
 html_title = "givens"
@@ -57,3 +59,18 @@ html_theme_options = {
     "footer_start": ["copyright"],
     "footer_end": ["theme-version"],
 }
+
+
+def already_told(app: Any, what: str, name: str, obj: object, skip: bool, options: Any) -> bool | None:
+    """Leaves out a property that its class lists among its attributes, lest it be documented twice."""
+    getter = obj.fget if isinstance(obj, property) else getattr(obj, "func", None)
+    owner = getattr(getter, "__qualname__", "").partition(".")[0]
+    cls = getattr(__import__("givens"), owner, None) if owner else None
+    section = (cls.__doc__ or "").partition("Attributes\n")[2].partition("Examples\n")[0] if cls else ""
+    listed = {word for line in re.findall(r"^ {4}([a-z_0-9, ]+?)(?: :.*)?$", section, re.M) for word in line.split(", ")}
+    return True if name in listed else None
+
+
+def setup(app: Any) -> None:
+    """Sphinx calls this."""
+    app.connect("autodoc-skip-member", already_told)

@@ -67,7 +67,7 @@ def already_told(app: Any, what: str, name: str, obj: object, skip: bool, option
     owner = getattr(getter, "__qualname__", "").partition(".")[0]
     cls = getattr(__import__("givens"), owner, None) if owner else None
     section = (cls.__doc__ or "").partition("Attributes\n")[2].partition("Examples\n")[0] if cls else ""
-    listed = {word for line in re.findall(r"^ {4}([a-z_0-9, ]+?)(?: :.*)?$", section, re.M) for word in line.split(", ")}
+    listed = ", ".join(re.findall(r"^ {4}([a-z_0-9, ]+?)(?: :.*)?$", section, re.M)).split(", ")
     return True if name in listed else None
 
 

@@ -15,7 +15,6 @@ from givens._trace.arguments import parameter_value
 from givens.gaussian import Gaussian
 
 if TYPE_CHECKING:
-    from givens.batch import Batch
     from givens.estimates import Estimates
 
 __all__ = ["ModelFile", "parse_model", "read_model"]
@@ -141,13 +140,13 @@ class ModelFile:
             new[name] = float(parameter_value("with_params", name, value))
         return ModelFile(self.native.with_parameters(np.array(list(new.values()), dtype=float)), self._text)
 
-    def filter(self, t: Any, z: Any = None, **options: Any) -> Estimates | Batch:
+    def filter(self, t: Any, z: Any = None, **options: Any) -> Estimates | Any:
         """Filters a table, the path of a CSV file, or arrays `t` and `z`; see `givens.filter`."""
         from givens.running import filter
 
         return filter(self, None, t, z, **options)
 
-    def smooth(self, t: Any, z: Any = None, **options: Any) -> Estimates | Batch:
+    def smooth(self, t: Any, z: Any = None, **options: Any) -> Estimates | Any:
         """Smooths a table, the path of a CSV file, or arrays `t` and `z`; see `givens.smooth`."""
         from givens.running import smooth
 

@@ -18,6 +18,10 @@ from givens.gaussian import Gaussian
 __all__ = ["filter", "merge", "smooth"]
 
 
+# A batch gives a `Batch`, which no type of the arguments tells: with `Estimates | Any` a checker knows the attributes
+# of one trajectory without being asked, and those of several after isinstance(found, Batch).
+
+
 def filter(
     model: Any,
     sensors: Any,
@@ -33,7 +37,7 @@ def filter(
     params: Mapping[str, Any] | None = None,
     threads: int | None = None,
     **options: Any,
-) -> Estimates | Batch:
+) -> Estimates | Any:
     """Estimates the state at each time from the measurements up to it.
 
     Parameters
@@ -121,7 +125,7 @@ def smooth(
     params: Mapping[str, Any] | None = None,
     threads: int | None = None,
     **options: Any,
-) -> Estimates | Batch:
+) -> Estimates | Any:
     """Estimates the state at each time from all measurements.
 
     Parameters

@@ -11,6 +11,23 @@ from typing import Any, Literal, NotRequired, TypedDict, final
 import numpy as np
 from numpy.typing import NDArray
 
+__all__ = [
+    "Choice",
+    "Estimates",
+    "Filter",
+    "Function",
+    "Graph",
+    "Model",
+    "accuracy",
+    "consistency",
+    "methods",
+    "options",
+    "read_tracks",
+    "run",
+    "run_batch",
+    "simulate",
+]
+
 _Array = NDArray[np.float64]
 _Kind = Literal["discrete", "continuous"]
 _Goal = Literal["filter", "interval", "lag", "point"]

@@ -1,41 +1,47 @@
 //! Everything that CI runs, one step after the other.
 
+use crate::step::Step;
 use crate::{say, tidy};
 use core::time::Duration;
 use std::path::Path;
-use std::process::Command;
 use std::time::Instant;
 
-/// A step that is a call of cargo.
-struct Step {
-    title: &'static str,
-    /// The words after `cargo`.
-    words: &'static str,
-    /// Flags for rustdoc.
-    rustdoc: Option<&'static str>,
-}
-
-const fn cargo(title: &'static str, words: &'static str) -> Step {
-    Step { title, words, rustdoc: None }
-}
-
 /// All of them use one profile. Lints and documentation only check, and share what they check of the dependencies;
-/// the last two steps share their build.
+/// build, tests and the wheel share their build.
 const STEPS: &[Step] = &[
-    cargo("format", "fmt --all --check"),
-    cargo("lints", "clippy --workspace --all-targets -- -D warnings"),
-    Step { rustdoc: Some("-D warnings"), ..cargo("documentation", "doc --workspace --no-deps") },
-    cargo("givens-core without std", "build -p givens-core --no-default-features"),
-    cargo("build", "test --workspace --no-run"),
-    cargo("tests", "test --workspace --no-fail-fast"),
+    Step::cargo("format", "fmt --all --check"),
+    Step::cargo("lints", "clippy --workspace --all-targets -- -D warnings"),
+    Step {
+        env: &[("RUSTDOCFLAGS", "-D warnings")],
+        ..Step::cargo("documentation", "doc --workspace --no-deps")
+    },
+    Step::cargo("givens-core without std", "build -p givens-core --no-default-features"),
+    Step::cargo("build", "test --workspace --no-run"),
+    Step::cargo("tests", "test --workspace --no-fail-fast"),
+    Step::of("python: environment", "python3", "-m venv --clear target/python"),
+    Step::python("python: what the checks need", "-m pip install -q -r python/requirements-ci.txt"),
+    Step::python(
+        "python: wheel",
+        "-m maturin build -q --out target/python/wheels --interpreter target/python/bin/python",
+    ),
+    Step::python(
+        "python: installation",
+        "-m pip install -q --no-index --no-deps --find-links target/python/wheels givens",
+    ),
+    Step::python("python: lints", "-m ruff check python"),
+    Step::python("python: layout", "-m ruff format --check python"),
+    Step::python("python: types", "-m mypy --strict python/givens python/examples"),
+    Step::python("python: stubs", "-m mypy.stubtest givens._native"),
+    Step::python("python: tests", "-m pytest -q python/tests"),
+    Step::python("python: documentation", "-m sphinx -q -W --keep-going python/docs target/python/docs"),
 ];
 
 /// Runs every step, also after one that failed, and tells how each went; whether all went well.
 pub fn run(root: &Path) -> bool {
     let mut done = Vec::new();
-    done.push(step("tidy", || tidy::run(root)));
-    for call in STEPS {
-        done.push(step(call.title, || call.run(root)));
+    done.push(timed("tidy", || tidy::run(root)));
+    for step in STEPS {
+        done.push(timed(step.title, || step.run(root)));
     }
     heading("ci");
     for (title, good, time) in &done {
@@ -44,7 +50,7 @@ pub fn run(root: &Path) -> bool {
     done.iter().all(|(_, good, _)| *good)
 }
 
-fn step(title: &'static str, work: impl FnOnce() -> bool) -> (&'static str, bool, Duration) {
+fn timed(title: &'static str, work: impl FnOnce() -> bool) -> (&'static str, bool, Duration) {
     heading(title);
     let begin = Instant::now();
     let good = work();
@@ -53,22 +59,4 @@ fn step(title: &'static str, work: impl FnOnce() -> bool) -> (&'static str, bool
 
 fn heading(title: &str) {
     say(&format!("\n=== {title} {}", "=".repeat(70_usize.saturating_sub(title.len()))));
-}
-
-impl Step {
-    /// Calls the cargo that called us; whether it succeeded.
-    fn run(&self, root: &Path) -> bool {
-        let program = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-        say(&format!("cargo {}", self.words));
-        let mut command = Command::new(program);
-        command.current_dir(root).args(self.words.split(' '));
-        command.envs(self.rustdoc.map(|flags| ("RUSTDOCFLAGS", flags)));
-        match command.status() {
-            Ok(status) => status.success(),
-            Err(error) => {
-                say(&format!("cargo could not be run: {error}"));
-                false
-            }
-        }
-    }
 }

@@ -3,6 +3,7 @@
 mod ci;
 mod finding;
 mod rust_text;
+mod step;
 mod tidy;
 mod tree;
 

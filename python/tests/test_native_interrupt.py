@@ -36,8 +36,8 @@ CALLS = {
     "adaptive": (300_000, 'native.run(*track(flow, solver)[:7], goal="filter")'),
     "one_long_gap": (
         1,
-        'native.run(flow, m.choose("cd-ckf2", "continuous", rtol=1e-14, max_step=1e-3), m.MEAN, m.STD, 0.0, '
-        "np.array([99.0]), z)",
+        "native.run(m.continuous(drift=m.called(m.drift)), "
+        'm.choose("cd-ckf2", "continuous", rtol=1e-14, max_step=1e-3), m.MEAN, m.STD, 0.0, np.array([99.0]), z)',
     ),
     "smoother": (1_000_000, 'native.run(*track(steps, choice)[:7], goal="interval")'),
     "callback": (3_000_000, 'native.run(*track(called, choice)[:7], goal="filter")'),

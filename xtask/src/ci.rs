@@ -11,10 +11,7 @@ use std::time::Instant;
 const STEPS: &[Step] = &[
     Step::cargo("format", "fmt --all --check"),
     Step::cargo("lints", "clippy --workspace --all-targets -- -D warnings"),
-    Step {
-        env: &[("RUSTDOCFLAGS", "-D warnings")],
-        ..Step::cargo("documentation", "doc --workspace --no-deps")
-    },
+    Step::cargo("documentation", "doc --workspace --no-deps").with_env(&[("RUSTDOCFLAGS", "-D warnings")]),
     Step::cargo("givens-core without std", "build -p givens-core --no-default-features"),
     Step::cargo("build", "test --workspace --no-run"),
     Step::cargo("tests", "test --workspace --no-fail-fast"),

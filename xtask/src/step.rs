@@ -10,7 +10,7 @@ pub struct Step {
     program: &'static str,
     /// What follows the program's name, separated by single spaces.
     words: &'static str,
-    pub env: &'static [(&'static str, &'static str)],
+    env: &'static [(&'static str, &'static str)],
 }
 
 impl Step {
@@ -25,6 +25,10 @@ impl Step {
     /// The Python of the environment that CI makes for itself.
     pub const fn python(title: &'static str, words: &'static str) -> Self {
         Self::of(title, "target/python/bin/python", words)
+    }
+
+    pub const fn with_env(self, env: &'static [(&'static str, &'static str)]) -> Self {
+        Self { env, ..self }
     }
 
     /// Whether the program ran and succeeded.

@@ -31,6 +31,7 @@ nb_execution_raise_on_error = True
 nb_execution_timeout = 60
 nb_execution_excludepatterns = ["index.md", "api/*", "guide/index.md", "examples/index.md"]
 nb_merge_streams = True
+nb_render_markdown_format = "myst"
 nb_number_source_lines = False
 myst_enable_extensions = ["dollarmath", "colon_fence"]
 myst_heading_anchors = 3

@@ -1,4 +1,4 @@
-"""How the site of the Python package is built: ``sphinx-build -W --keep-going -j auto python/docs OUT``.
+"""How the site of the Python package is built: ``sphinx-build -W --keep-going -j auto python/docs site``.
 
 Every page that holds code is executed, and a page that fails ends the build.
 """

@@ -1,4 +1,4 @@
-"""How the site of the Python package is built: ``sphinx-build -W --keep-going -j auto python/docs OUT``.
+"""How the site of the Python package is built: ``sphinx-build -W --keep-going -j auto python/docs site``.
 
 Every page that holds code is executed, and a page that fails ends the build.
 """
@@ -31,6 +31,7 @@ nb_execution_raise_on_error = True
 nb_execution_timeout = 60
 nb_execution_excludepatterns = ["index.md", "api/*", "guide/index.md", "examples/index.md"]
 nb_merge_streams = True
+nb_render_markdown_format = "myst"
 nb_number_source_lines = False
 myst_enable_extensions = ["dollarmath", "colon_fence"]
 myst_heading_anchors = 3

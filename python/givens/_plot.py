@@ -38,6 +38,12 @@ def plot(one: Estimates, plane: tuple[str, str] | None, truth: Any) -> Any:
         else:
             _nis(axes, one)
             _dates(axes, one)
+    above = figure.axes[0]
+    above.set_title(f"{one.method}: mean and two standard deviations", fontsize="medium", loc="left")
+    # above the figure, where no line can run through it
+    figure.legend(
+        *above.get_legend_handles_labels(), loc="outside upper right", fontsize="small", frameon=False, ncols=3
+    )
     if places is not None:
         _track(figure.add_subplot(grid[:, 0]), one, places, known)
     return figure
@@ -53,9 +59,6 @@ def _state(axes: Any, one: Estimates, i: int, truth: Array | None) -> None:
     word = "smoothed" if one.is_smoothed else "filtered"
     axes.plot(one.time, mean, color=_ESTIMATE, linewidth=1.2, label=word)
     axes.set_ylabel(one.state[i])
-    if i == 0:
-        axes.legend(loc="best", fontsize="small", frameon=False, ncols=3)
-        axes.set_title(f"{one.method}: mean and two standard deviations", fontsize="medium")
 
 
 def _nis(axes: Any, one: Estimates) -> None:
@@ -66,7 +69,10 @@ def _nis(axes: Any, one: Estimates) -> None:
     axes.set_ylim(bottom=0)
     axes.set_ylabel("NIS / dof")
     axes.set_xlabel("time")
-    axes.set_title(str(one.consistency()).partition(";")[0], fontsize="small", loc="left")
+    found = one.consistency()
+    low, high = found.band
+    words = f"{found.verdict}: mean NIS {found.ratio:.3f} per degree of freedom, 95 % band {low:.3f} to {high:.3f}"
+    axes.set_title(words, fontsize="small", loc="left")
 
 
 def _dates(axes: Any, one: Estimates) -> None:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from givens import _native
+from givens._names import known_name
 
 __all__ = ["Method", "MethodList", "methods"]
 
@@ -68,6 +69,11 @@ def methods(kind: str | None = None) -> MethodList:
     kind : str, optional
         ``"discrete"`` or ``"continuous"``.
 
+    Raises
+    ------
+    InputError
+        For a kind that does not exist.
+
     Examples
     --------
     >>> import givens as gv
@@ -76,6 +82,8 @@ def methods(kind: str | None = None) -> MethodList:
     >>> "kappa" in next(method for method in gv.methods() if method.name == "ukf").options
     True
     """
+    if kind is not None:
+        known_name("kind", kind, ("discrete", "continuous"), "kind of method")
     found = MethodList()
     for entry in _native.methods():
         fields: dict[str, Any] = dict(entry)

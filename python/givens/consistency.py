@@ -53,7 +53,9 @@ class Consistency:
     def __str__(self) -> str:
         if not np.isfinite(self.correlation):
             return self.text
-        words = "unrelated to those before" if self.is_white else "related to those before: the model misses something"
+        words = (
+            "unrelated to those before" if self.is_white else "related to those before: the model may miss something"
+        )
         return (
             f"{self.text}; innovations {words} (correlation {self.correlation:.3f}, bound {self.correlation_bound:.3f})"
         )

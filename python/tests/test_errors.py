@@ -358,17 +358,25 @@ CASES = [
     (
         lambda: gv.filter(MODEL, LENGTH, T[::-1], Z, prior=PRIOR),
         gv.InputError,
-        "row 1: time 9.5 is before the row above or the initial belief, or not finite\n  help: times increase from `t0` on; sort the rows, or start earlier",
+        "row 1: time 9.5 is before the row above, at 10\n  help: times increase from `t0` on; sort the rows, or start earlier",
     ),
     (
         lambda: gv.filter(MODEL, LENGTH, T, Z, prior=PRIOR, t0=3.0),
         gv.InputError,
-        "row 0: time 0.5 is before the row above or the initial belief, or not finite\n  help: times increase from `t0` on; sort the rows, or start earlier",
+        "row 0: time 0.5 is before the initial belief, at 3\n  help: times increase from `t0` on; sort the rows, or start earlier",
     ),
     (
         lambda: gv.filter(MODEL, LENGTH, np.where(T == 2, np.nan, T), Z, prior=PRIOR),
         gv.InputError,
-        "row 3: time NaN is before the row above or the initial belief, or not finite\n  help: times increase from `t0` on; sort the rows, or start earlier",
+        "row 3: time NaN is not finite\n  help: times increase from `t0` on; sort the rows, or start earlier",
+    ),
+    (
+        lambda: gv.filter(
+            gv.Transition(lambda t, dt, x: x, noise_cov=np.eye(2), state=S, step=1.0),
+            LENGTH, [0, 1, 3, 5.5], Z[:4], prior=PRIOR,
+        ),
+        gv.InputError,
+        "row 3, t = 5.5: a gap of 2.5 is not a whole number of steps of 1\n  help: put the rows on whole steps, or write the transition in `dt` and leave `step` out",
     ),
     (
         lambda: gv.filter(MODEL, LENGTH, T, np.where(T[:, None] == 2, np.inf, Z), prior=PRIOR),

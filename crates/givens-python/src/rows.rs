@@ -1,12 +1,13 @@
 //! Rows of data and initial beliefs, from arrays.
 
 use givens::filter::Gaussian;
+use givens::filter::predict::{OneTransition, TimeUpdate};
 use givens::scalar::Shown;
 use givens::{Data, Goal};
 use numpy::{PyReadonlyArrayDyn, PyUntypedArrayMethods};
 
 use crate::errors::{Input, Result, covariance, data, length};
-use crate::model::Model;
+use crate::model::{Model, Moves};
 use crate::numbers::{numbers, shaped};
 
 type Numbers<'py> = PyReadonlyArrayDyn<'py, f64>;
@@ -41,7 +42,24 @@ pub fn rows(
         let (z, u) = (&z[row * d..(row + 1) * d], &u[row * c..(row + 1) * c]);
         data_.push_controlled(t, z, u).map_err(|error| data(error, &names))?;
     }
+    whole_steps(model, data_.start(), &time)?;
     Ok(data_)
+}
+
+/// An error for the first gap that a model with a fixed step cannot cross.
+fn whole_steps(model: &Model, t0: f64, time: &[f64]) -> Result<()> {
+    let Moves::Discrete(moves) = &model.moves else { return Ok(()) };
+    let mut from = t0;
+    for (row, &to) in time.iter().enumerate() {
+        if let Err(fault) = OneTransition.plan(moves, from, to) {
+            let input = Input::new("t", format!("row {row}, t = {}: {fault}", Shown(to))).row(row);
+            return Err(input
+                .help("put the rows on whole steps, or write the transition in `dt` and leave `step` out")
+                .into());
+        }
+        from = to;
+    }
+    Ok(())
 }
 
 /// An initial belief: `spread` is the covariance, n × n, or the standard deviations, length n.

@@ -35,12 +35,14 @@ pub struct Data {
 /// Why a row was refused.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum DataError {
-    /// A time that is not finite, or before the row above or the initial belief.
+    /// A time that is not finite, or before the row above; the first row's before the initial belief.
     Time {
         /// The row, from zero.
         row: usize,
         /// Its time.
         time: f64,
+        /// The earliest time that it may have.
+        earliest: f64,
     },
     /// An infinite measurement.
     Infinite {
@@ -63,12 +65,12 @@ pub enum DataError {
 impl core::fmt::Display for DataError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match *self {
-            Self::Time { row, time } => {
-                let time = Shown(time);
-                write!(
-                    f,
-                    "row {row}: time {time} is before the row above or the initial belief, or not finite"
-                )
+            Self::Time { row, time, .. } if !time.is_finite() => {
+                write!(f, "row {row}: time {} is not finite", Shown(time))
+            }
+            Self::Time { row, time, earliest } => {
+                let before = if row == 0 { "the initial belief" } else { "the row above" };
+                write!(f, "row {row}: time {} is before {before}, at {}", Shown(time), Shown(earliest))
             }
             Self::Infinite { row, component } => {
                 write!(f, "row {row}: component {component} is infinite; a missing component is NaN")
@@ -123,8 +125,9 @@ impl Data {
                 return Err(DataError::Length { row, expected, found });
             }
         }
-        if !time.is_finite() || self.time.last().copied().or(self.start).is_some_and(|last| time < last) {
-            return Err(DataError::Time { row, time });
+        let earliest = self.time.last().copied().or(self.start).unwrap_or(f64::NEG_INFINITY);
+        if !time.is_finite() || time < earliest {
+            return Err(DataError::Time { row, time, earliest });
         }
         if let Some(component) = z.iter().position(|z| z.is_infinite()) {
             return Err(DataError::Infinite { row, component });

@@ -118,16 +118,13 @@ impl<'t, 'm, X: Over<M>, M, H: Observation> Recorder<'t, 'm, X, M, H> {
 
     fn write(&self, time: f64, out: &mut Estimates) {
         out.time.push(time);
-        match &self.point {
-            Some(point) => {
-                out.mean.extend_from_slice(point.mean());
-                out.cov.extend_from_slice(point.cov());
-                out.factor.extend_from_slice(point.factor());
-            }
-            None => {
-                push(&self.filter, &mut out.mean, &mut out.cov);
-                out.factor.extend_from_slice(self.filter.factor());
-            }
+        if let Some(point) = &self.point {
+            out.mean.extend_from_slice(point.mean());
+            out.cov.extend_from_slice(point.cov());
+            out.factor.extend_from_slice(point.factor());
+        } else {
+            push(&self.filter, &mut out.mean, &mut out.cov);
+            out.factor.extend_from_slice(self.filter.factor());
         }
         if out.smoothed {
             push(&self.filter, &mut out.filtered_mean, &mut out.filtered_cov);

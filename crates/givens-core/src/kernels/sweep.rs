@@ -42,21 +42,28 @@ pub fn sweep<T: Real>(a: &mut [T], d: usize, n: usize, scratch: &mut [T]) -> Hea
             let (c, s) = (before / after, z / after);
             let (c, s) = (T::select(still, T::one(), c), T::select(still, T::zero(), s));
             before = T::select(still, before, after);
-            let mut turn = |i: usize| {
-                let (x, y) = (a[i * size + d + j], a[i * size + q]);
-                a[i * size + d + j] = c * x - s * y;
-                a[i * size + q] = s.mul_add(x, c * y);
-            };
             // the rows of D still to come, and the rows of each S that column j reaches
-            (q + 1..d).for_each(&mut turn);
+            for i in q + 1..d {
+                turn(&mut a[i * size..(i + 1) * size], q, d + j, c, s);
+            }
             for top in (d..rows).step_by(n) {
-                (top + j..top + n).for_each(&mut turn);
+                for i in top + j..top + n {
+                    turn(&mut a[i * size..(i + 1) * size], q, d + j, c, s);
+                }
             }
             a[q * size + d + j] = T::zero();
         }
         a[q * size + q] = before;
     }
     health
+}
+
+/// Turns columns `q` and `column` of a row by the angle of cosine c and sine s.
+#[inline(always)]
+fn turn<T: Real>(row: &mut [T], q: usize, column: usize, c: T, s: T) {
+    let (x, y) = (row[column], row[q]);
+    row[column] = c * x - s * y;
+    row[q] = s.mul_add(x, c * y);
 }
 
 /// Row q has no pivot: zeroes what is left of it, and turns its column of L into those of the rows below.

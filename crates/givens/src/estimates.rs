@@ -14,6 +14,9 @@ pub struct Estimates {
     pub mean: Vec<f64>,
     /// Filtered or smoothed covariances, rows × n × n.
     pub cov: Vec<f64>,
+    /// Lower-triangular roots of these covariances, rows × n × n, diagonal ≥ 0: those of a square-root method are its own,
+    /// never taken of a covariance.
+    pub factor: Vec<f64>,
     /// Filtered means of a smoother, rows × n; empty for a filter.
     pub filtered_mean: Vec<f64>,
     /// Filtered covariances of a smoother, rows × n × n; empty for a filter.
@@ -49,7 +52,7 @@ impl Estimates {
         for of in [&mut self.mean, &mut self.filtered_mean, &mut self.predicted_mean] {
             of.truncate(rows * n);
         }
-        for of in [&mut self.cov, &mut self.filtered_cov, &mut self.predicted_cov] {
+        for of in [&mut self.cov, &mut self.factor, &mut self.filtered_cov, &mut self.predicted_cov] {
             of.truncate(rows * n * n);
         }
         self.innovation.truncate(rows * d);
@@ -66,6 +69,7 @@ impl Estimates {
         };
         copy(&mut self.mean, &other.mean, n);
         copy(&mut self.cov, &other.cov, n * n);
+        copy(&mut self.factor, &other.factor, n * n);
         copy(&mut self.filtered_mean, &other.filtered_mean, n);
         copy(&mut self.filtered_cov, &other.filtered_cov, n * n);
         copy(&mut self.predicted_mean, &other.predicted_mean, n);
@@ -124,6 +128,11 @@ impl Estimates {
     /// Covariance of a row, n × n.
     pub fn cov(&self, row: usize) -> &[f64] {
         self.matrix(&self.cov, row)
+    }
+
+    /// Lower-triangular root of the covariance of a row, n × n, diagonal ≥ 0.
+    pub fn factor(&self, row: usize) -> &[f64] {
+        self.matrix(&self.factor, row)
     }
 
     /// Standard deviation of component `i` of a row.

@@ -3,10 +3,11 @@
 use super::back::symmetrise;
 use super::history::{OTHER_FORM, UNFOLLOWED, for_smoothing};
 use crate::filter::backward::multiply;
+use crate::filter::lanes::lanes;
 use crate::filter::memory::{put_columns, take};
-use crate::filter::{Fault, Filter, Form, Grow, Learnt, Over, StepError};
-use crate::kernels::{add_outer, copy_lower, square, tria};
-use crate::scalar::Real;
+use crate::filter::{Fault, Filter, Form, Grow, Learnt, Matrix, Over, StepError};
+use crate::kernels::{add_outer, cholesky_scaled, copy_lower, square, tria};
+use crate::scalar::{Mask, Real};
 use core::marker::PhantomData;
 
 /// The state at the time when this was begun, given all measurements since (docs/algorithms.md S6).
@@ -26,9 +27,11 @@ pub struct FixedPoint<T, B> {
 struct Parts<'a, T> {
     mean: &'a mut [T],
     cov: &'a mut [T],
+    factor: &'a mut [T],
     /// m_j and S_j in square-root form, m⁻_k and P⁻_k in covariance form.
     anchor_mean: &'a mut [T],
     anchor: &'a mut [T],
+    /// In covariance form, what the variances of `cov` have been differences of.
     shift: &'a mut [T],
     chain: &'a mut [T],
     /// Γ in square-root form; P_k − P⁻_k in covariance form.
@@ -42,6 +45,7 @@ fn parts<T>(n: usize, mut memory: &mut [T]) -> Parts<'_, T> {
     Parts {
         mean: take(m, n),
         cov: take(m, n * n),
+        factor: take(m, n * n),
         anchor_mean: take(m, n),
         anchor: take(m, n * n),
         shift: take(m, n),
@@ -56,7 +60,7 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> FixedPoint<T, B> {
     /// Scalars of memory for n `states`.
     #[must_use]
     pub const fn memory_len(states: usize) -> usize {
-        3 * states + 7 * states * states
+        3 * states + 8 * states * states
     }
 
     /// Begins at the filter's present time, with its belief; from then on this alone predicts with the filter, and a
@@ -80,8 +84,12 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> FixedPoint<T, B> {
         filter.write_cov(parts.cov);
         parts.anchor_mean.copy_from_slice(filter.mean());
         parts.anchor.copy_from_slice(if X::Form::SQUARE_ROOT { filter.factor() } else { parts.cov });
+        parts.factor.copy_from_slice(filter.factor());
         parts.conditional.fill(T::zero());
-        Learnt { shift: parts.shift, turn: parts.chain }.reset(n);
+        Learnt { shift: &mut *parts.shift, turn: parts.chain }.reset(n);
+        if !X::Form::SQUARE_ROOT {
+            parts.shift.iter_mut().zip(parts.cov.iter().step_by(n + 1)).for_each(|(to, &p)| *to = p);
+        }
         filter.forget_learnt();
         let seen = filter.moves();
         Ok(Self { states: n, square_root: X::Form::SQUARE_ROOT, seen, memory, scalar: PhantomData })
@@ -145,10 +153,12 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> FixedPoint<T, B> {
         Ok(())
     }
 
-    /// Takes in what the filter has learnt since the last prediction, for [`mean`](Self::mean) and [`cov`](Self::cov).
+    /// Takes in what the filter has learnt since the last prediction, for [`mean`](Self::mean), [`cov`](Self::cov) and
+    /// [`factor`](Self::factor).
     ///
     /// # Errors
-    /// A filter of another length or form than the one that this was begun with.
+    /// A filter of another length or form than the one that this was begun with; a smoothed covariance that is not positive
+    /// semidefinite, in covariance form.
     pub fn update<X: Over<M>, M, C: Grow<T>>(
         &mut self,
         filter: &Filter<'_, X, M, T, C>,
@@ -169,7 +179,9 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> FixedPoint<T, B> {
             multiply(parts.product, n, parts.anchor, parts.conditional);
             put_columns(parts.wide, 2 * n, 0, parts.product, n);
             put_columns(parts.wide, 2 * n, n, parts.cov, n);
-            square(parts.cov, n, parts.wide, 2 * n, 2 * n);
+            let _ = tria(parts.wide, n, 2 * n, 2 * n);
+            copy_lower(parts.factor, n, parts.wide, 2 * n);
+            square(parts.cov, n, parts.factor, n, n);
             return Ok(());
         }
         let change = &mut parts.product[..n];
@@ -181,13 +193,25 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> FixedPoint<T, B> {
         for (x, &p) in parts.conditional.iter_mut().zip(&*parts.anchor) {
             *x -= p;
         }
+        if parts.conditional.iter().all(|x| x.same(T::zero()).all()) {
+            return Ok(()); // nothing learnt since the last call
+        }
         multiply(parts.product, n, parts.chain, parts.conditional);
         add_outer(parts.cov, n, n, parts.product, n, parts.chain, n, n, 1.0);
         symmetrise(parts.cov, n);
+        // the rounding of the sum is that of its terms
+        for (scale, row) in parts.shift.iter_mut().zip(parts.chain.chunks_exact(n)) {
+            let variances = parts.anchor.iter().step_by(n + 1);
+            let sigma =
+                row.iter().zip(variances).fold(T::zero(), |sum, (&b, &p)| b.abs().mul_add(p.sqrt(), sum));
+            *scale = scale.max(sigma * sigma);
+        }
+        parts.factor.copy_from_slice(parts.cov);
+        let done = lanes(cholesky_scaled(parts.factor, n, parts.shift), Matrix::Smoothed);
         // a second update at this time starts from here
         parts.anchor_mean.copy_from_slice(filter.mean());
         filter.write_cov(parts.anchor);
-        Ok(())
+        done.map(|_| ()).map_err(|fault| filter.fail(fault))
     }
 
     /// The estimate of the state at the time of [`begin`](Self::begin).
@@ -198,6 +222,12 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> FixedPoint<T, B> {
     /// Its covariance, n × n.
     pub fn cov(&self) -> &[T] {
         &self.memory.as_ref()[self.states..self.states + self.states * self.states]
+    }
+
+    /// S with S Sᵀ the covariance, lower triangular n × n, diagonal ≥ 0.
+    pub fn factor(&self) -> &[T] {
+        let square = self.states * self.states;
+        &self.memory.as_ref()[self.states + square..self.states + 2 * square]
     }
 }
 

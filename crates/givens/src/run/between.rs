@@ -80,6 +80,7 @@ impl<'t> Between<'t> {
         let out = &mut self.out;
         push(filter, &mut out.predicted_mean, &mut out.predicted_cov);
         push(filter, &mut out.mean, &mut out.cov);
+        out.factor.extend_from_slice(filter.factor());
         if self.smoothing {
             push(filter, &mut out.filtered_mean, &mut out.filtered_cov);
         }

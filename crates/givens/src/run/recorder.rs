@@ -118,12 +118,13 @@ impl<'t, 'm, X: Over<M>, M, H: Observation> Recorder<'t, 'm, X, M, H> {
 
     fn write(&self, time: f64, out: &mut Estimates) {
         out.time.push(time);
-        match &self.point {
-            Some(point) => {
-                out.mean.extend_from_slice(point.mean());
-                out.cov.extend_from_slice(point.cov());
-            }
-            None => push(&self.filter, &mut out.mean, &mut out.cov),
+        if let Some(point) = &self.point {
+            out.mean.extend_from_slice(point.mean());
+            out.cov.extend_from_slice(point.cov());
+            out.factor.extend_from_slice(point.factor());
+        } else {
+            push(&self.filter, &mut out.mean, &mut out.cov);
+            out.factor.extend_from_slice(self.filter.factor());
         }
         if out.smoothed {
             push(&self.filter, &mut out.filtered_mean, &mut out.filtered_cov);
@@ -178,6 +179,7 @@ pub(super) fn push<X: Over<M>, M>(filter: &OwnFilter<X, M>, mean: &mut Vec<f64>,
 pub(super) fn put<F: Form>(out: &mut Estimates, row: usize, belief: &Belief<f64>) {
     let n = belief.mean.len();
     out.mean[row * n..(row + 1) * n].copy_from_slice(belief.mean);
+    out.factor[row * n * n..(row + 1) * n * n].copy_from_slice(belief.factor);
     let cov = &mut out.cov[row * n * n..(row + 1) * n * n];
     if F::SQUARE_ROOT {
         crate::kernels::square(cov, n, belief.factor, n, n);

@@ -486,6 +486,26 @@ def run_batch(
     `failure`. Models with functions of Python run on one thread.
     """
 
+def sample(
+    model: Model,
+    choice: Choice,
+    mean: _Array,
+    cov: _Array,
+    t0: float | None,
+    time: _Array,
+    z: _Array,
+    u: _Array | None = None,
+    *,
+    draws: int,
+    seed: int,
+    track: int = 0,
+) -> _Array:
+    """Draws trajectories (draws, K, n) from the joint distribution of the states at all rows, given all of them.
+
+    At each row they have the mean and covariance of the smoother. Draw i depends on seed, track and i, not on how many
+    there are. A step that fails raises StepError.
+    """
+
 def simulate(
     model: Model,
     mean: _Array,

@@ -14,6 +14,7 @@ mod model;
 mod numbers;
 mod rows;
 mod run;
+mod sample;
 mod simulate;
 mod snapshot;
 mod table;
@@ -38,6 +39,8 @@ mod _native {
     use crate::model::{Function, Model};
     #[pymodule_export]
     use crate::run::{run, run_batch};
+    #[pymodule_export]
+    use crate::sample::sample;
     #[pymodule_export]
     use crate::simulate::simulate;
     #[pymodule_export]

@@ -25,6 +25,7 @@ __all__ = [
     "read_tracks",
     "run",
     "run_batch",
+    "sample",
     "simulate",
 ]
 

@@ -121,6 +121,7 @@ class Estimates:
         fields |= {"seconds": seconds, "time": track.clock.shown(seconds), "is_smoothed": found.smoothed}
         fields |= {"state": track.joined.states, "measures": track.joined.measures, "method": track.choice.name}
         fields |= {"failed": failed, "track_id": track.id, "_track": track, "_goal": goal, "_rows": len(track.time)}
+        fields["_whole"] = goal.word == "interval" and at is None and failed is None
         self.__dict__.update(fields)
         return self
 
@@ -173,26 +174,44 @@ class Estimates:
         return Estimates._of(track, native, goal, wanted)
 
     def sample(self, n: int, *, seed: int) -> Array:
-        """Draws states from the estimates, each row by itself.
+        """Draws states from the estimates.
 
-        Rows of one draw are independent: together they are no path of the model.
+        Of `givens.smooth` over all rows: whole trajectories, drawn from the joint distribution of all states given all
+        measurements, each of which could be the true one. Of a filter, of a lag or a point, and of other times: each
+        row by itself.
 
         Parameters
         ----------
         n : int
             How many.
         seed : int
-            Equal seeds give equal draws.
+            From 0 up. Equal seeds give equal draws, however many there are.
 
         Returns
         -------
         ndarray, shape (n, rows, states)
         """
-        if n < 0:
-            raise InputError(f"`n` is {n}", argument="n", remedy="a number of draws is from 0 up")
+        for name, value in (("n", n), ("seed", seed)):
+            if value < 0:
+                raise InputError(f"`{name}` is {value}", argument=name, remedy=f"`{name}` is from 0 up")
+        if self.__dict__["_whole"]:
+            return self._paths(n, seed)
         normal = np.random.default_rng(seed).standard_normal((n, *self.mean.shape))
         drawn: Array = self.mean + np.einsum("kij,skj->ski", self.factor, normal)
         return drawn
+
+    def _paths(self, n: int, seed: int) -> Array:
+        track: Track | None = self.__dict__["_track"]
+        if track is None:
+            raise InputError(
+                "these estimates come from a pickle and cannot draw trajectories",
+                argument="n",
+                remedy="draw before they are pickled",
+            )
+        model, choice, mean, cov, t0, time, z, u, _ = track.arguments()
+        drawn = _native.sample(model, choice, mean, cov, t0, time, z, u, draws=n, seed=seed)
+        unknown = np.full((n, track.before, drawn.shape[2]), np.nan)
+        return np.concatenate([unknown, drawn], axis=1) if track.before else drawn
 
     def consistency(self) -> Consistency:
         """Whether the innovations are as large as the filter says, and unrelated to each other."""

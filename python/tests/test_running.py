@@ -277,6 +277,18 @@ def test_samples_have_the_moments_of_the_estimates():
     np.testing.assert_array_equal(drawn[:3], est.sample(40_000, seed=1)[:3])
 
 
+def test_trajectories_of_a_smoother_obey_dynamics_without_noise():
+    model = gv.Transition(lambda t, dt, x: [x[0] + dt * x[1], x[1]], noise_cov=np.zeros((2, 2)), state=["x", "v"])
+    sensor = gv.Sensor(lambda t, x: x[:1], measures=["x"], std=[0.1])
+    est = gv.smooth(model, sensor, T, Z, prior=gv.Gaussian([0, 0], std=[1, 1]))
+    drawn = est.sample(50, seed=7)
+    steps = np.diff(est.seconds)
+    np.testing.assert_allclose(np.diff(drawn[..., 0]), drawn[:, :-1, 1] * steps, atol=1e-9)
+    np.testing.assert_allclose(drawn[:, :1, 1] + 0 * drawn[..., 1], drawn[..., 1], atol=1e-9)
+    np.testing.assert_array_equal(drawn[:3], est.sample(3, seed=7))
+    assert abs(drawn[:, 0, 1].std() / est.std[0, 1] - 1) < 0.4
+
+
 def test_estimates_become_tables():
     est = run()
     frame = pytest.importorskip("pandas") and est.to_pandas()

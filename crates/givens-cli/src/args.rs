@@ -52,7 +52,10 @@ pub enum Command {
     #[command(after_help = "Examples:
   givens reproduce all -o pages              at the papers' own numbers of runs
   givens reproduce arasaratnam2011smoothers --only table-4 --runs 5000 --seed 7
-  givens reproduce sarkka2012continuous -o pages --runs 1000")]
+  givens reproduce sarkka2012continuous -o pages --runs 1000
+
+All cores are used; RAYON_NUM_THREADS=2 in the environment sets their number. The numbers are the same for any.
+A folder may take the pages of several calls, also at once: its index lists all that lie there.")]
     Reproduce(ReproduceArgs),
     /// List the methods, their parts and their options
     #[command(after_help = "Example:\n  givens methods | grep unscented")]

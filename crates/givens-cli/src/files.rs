@@ -70,6 +70,11 @@ impl Sink {
         }
     }
 
+    /// Opens a file that other processes may be writing too.
+    pub fn shared(path: &Path) -> Result<Self, Stop> {
+        Destination::shared(path).map(Self::File).map_err(|error| Stop::input(error.to_string()))
+    }
+
     /// Writes the data, and gives the file its name.
     pub fn write(self, data: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), Stop> {
         match self {

@@ -46,6 +46,11 @@ impl Expected {
         array.map(|array| array.iter().filter_map(number).collect()).unwrap_or_default()
     }
 
+    /// The words at a path of keys.
+    pub fn word(&self, path: &[&str]) -> Option<&str> {
+        self.at(path)?.as_str()
+    }
+
     fn at(&self, path: &[&str]) -> Option<&toml::Value> {
         let (first, rest) = path.split_first()?;
         rest.iter().try_fold(self.table.get(*first)?, |value, key| value.get(key))

@@ -5,11 +5,13 @@
 //! threads, and answers with a [`Page`]: tables, figures, and every published number [judged](Verdict). Nothing here
 //! opens a file or prints.
 
+mod claim;
 mod drawing;
+mod estimate;
 mod expected;
 mod failures;
-mod judge;
 mod page;
+mod paired;
 mod paper;
 mod plan;
 mod radar;
@@ -21,9 +23,10 @@ pub mod arasaratnam2011smoothers;
 pub mod sarkka2012continuous;
 pub mod wang2021levelset;
 
+pub use claim::{Claim, Verdict};
+pub use estimate::Estimate;
 pub use expected::{Expected, ExpectedError};
 pub use failures::Failures;
-pub use judge::{Claim, Verdict};
 pub use page::{Cell, File, Page, Table, index};
 pub use paper::{Experiment, PAPERS, Paper, Refused, Trouble, find};
 pub use plan::{Plan, Progress, Quiet};

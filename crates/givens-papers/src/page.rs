@@ -1,6 +1,6 @@
 //! What an experiment answers with, and the files that it becomes.
 
-use crate::judge::shown;
+use crate::claim::shown;
 use crate::{Claim, Experiment, Paper};
 use core::fmt::Write as _;
 use givens_io::figure::{Figure, FigureError, png, svg};
@@ -16,8 +16,10 @@ pub struct Page {
     pub tables: Vec<Table>,
     /// By name.
     pub figures: Vec<(&'static str, Figure)>,
-    /// Runs that failed or were lost, by method.
+    /// What failed or was lost, by method and form.
     pub failures: Vec<(String, crate::Failures)>,
+    /// What `failures` counts; empty: runs lost.
+    pub failing: &'static str,
 }
 
 /// Numbers in columns.
@@ -72,7 +74,8 @@ impl Table {
 
     /// In comma-separated values, numbers so that they read back exactly.
     pub fn csv(&self) -> String {
-        let mut text = self.columns.join(",") + "\n";
+        let columns: Vec<String> = self.columns.iter().map(|name| quoted(name)).collect();
+        let mut text = columns.join(",") + "\n";
         for row in &self.rows {
             let cells: Vec<String> = row.iter().map(Cell::exact).collect();
             text += &(cells.join(",") + "\n");
@@ -86,8 +89,7 @@ impl Cell {
         match self {
             Self::Number(x) if x.is_finite() => format!("{x}"),
             Self::Number(_) => String::new(),
-            Self::Word(word) if word.contains([',', '"']) => format!("\"{}\"", word.replace('"', "\"\"")),
-            Self::Word(word) => word.clone(),
+            Self::Word(word) => quoted(word),
         }
     }
 
@@ -101,6 +103,15 @@ impl Cell {
     }
 }
 
+/// A word as one cell of a CSV.
+fn quoted(word: &str) -> String {
+    if word.contains([',', '"', '\n']) {
+        format!("\"{}\"", word.replace('"', "\"\""))
+    } else {
+        word.to_owned()
+    }
+}
+
 /// A file that a page becomes.
 #[derive(Clone, Debug)]
 pub struct File {
@@ -110,8 +121,8 @@ pub struct File {
     pub contents: Vec<u8>,
 }
 
-/// Tables longer than this stand in their file alone.
-const LONGEST: usize = 40;
+/// Tables of more columns than this, such as curves over time, stand in their file alone.
+const WIDEST: usize = 12;
 
 impl Page {
     /// The Markdown page, a CSV for each table, an SVG and a PNG for each figure; `command` is what makes them.
@@ -127,7 +138,7 @@ impl Page {
         let stem = format!("{}/{}", paper.key, experiment.name);
         let mut files = vec![File {
             path: format!("{stem}.md"),
-            contents: self.markdown(paper, experiment, command).into_bytes(),
+            contents: self.text(paper, experiment, command).into_bytes(),
         }];
         for table in &self.tables {
             let path = format!("{stem}-{}.csv", table.name);
@@ -140,26 +151,28 @@ impl Page {
         Ok(files)
     }
 
-    fn markdown(&self, paper: &Paper, experiment: &Experiment, command: &str) -> String {
-        let mut text = format!(
-            "# {}\n\n{}\n\nMade by `{command}`.\n\n{}\n",
-            experiment.shows, paper.citation, self.about
-        );
+    /// The Markdown page.
+    pub fn text(&self, paper: &Paper, experiment: &Experiment, command: &str) -> String {
+        let mut text =
+            format!("# {}\n\n{}\n\n{MADE}{command}`.\n\n{}\n", experiment.shows, paper.citation, self.about);
         if !self.claims.is_empty() {
-            text += "\n| | published | ours | |\n|---|---|---|---|\n";
+            text += "\n";
+            text += HEAD;
+            text += "|---|---|---|---|\n";
             for claim in &self.claims {
                 text += &row(claim);
             }
         }
+        let failing = if self.failing.is_empty() { "Runs lost" } else { self.failing };
         for (method, failures) in &self.failures {
-            let _ = write!(text, "\nRuns lost, {method}: {failures}.\n");
+            let _ = write!(text, "\n{failing}, {method}: {failures}.\n");
         }
         for (name, _) in &self.figures {
             let _ = write!(text, "\n![{name}]({}-{name}.svg)\n", experiment.name);
         }
         for table in &self.tables {
             let _ = write!(text, "\n[{0}]({1}-{0}.csv)\n", table.name, experiment.name);
-            if table.rows.len() <= LONGEST {
+            if table.columns.len() <= WIDEST {
                 let _ = write!(
                     text,
                     "\n| {} |\n|{}\n",
@@ -181,9 +194,14 @@ fn row(claim: &Claim) -> String {
     format!("| {} | {} | {} | {}{remark} |\n", claim.what, claim.published, claim.ours, claim.verdict)
 }
 
-/// The page that lists all others, with every claim.
-pub fn index(pages: &[(&Paper, &Experiment, Page)], command: &str) -> File {
-    let mut text = format!("# Five papers, run again\n\nMade by `{command}`.\n\n{LEGEND}\n");
+/// Before the command that made a page.
+const MADE: &str = "Made by `";
+/// Of the table of claims.
+const HEAD: &str = "| | published | ours | |\n";
+
+/// The page that lists all others, with every claim: from their texts, in the order given.
+pub fn index(pages: &[(&Paper, &Experiment, String)]) -> File {
+    let mut text = format!("# Five papers, run again\n\n{LEGEND}\n");
     let mut last = "";
     for (paper, experiment, page) in pages {
         if paper.key != last {
@@ -191,9 +209,13 @@ pub fn index(pages: &[(&Paper, &Experiment, Page)], command: &str) -> File {
             last = paper.key;
         }
         let _ = write!(text, "\n### [{}]({}/{}.md)\n", experiment.shows, paper.key, experiment.name);
-        if !page.claims.is_empty() {
-            text += "\n| | published | ours | |\n|---|---|---|---|\n";
-            page.claims.iter().for_each(|claim| text += &row(claim));
+        if let Some(made) = page.lines().find(|line| line.starts_with(MADE)) {
+            let _ = write!(text, "\n{made}\n");
+        }
+        if let Some(at) = page.find(HEAD) {
+            text += "\n";
+            let rows = page[at..].lines().take_while(|line| line.starts_with('|'));
+            rows.for_each(|row| text += &format!("{row}\n"));
         }
     }
     File { path: "index.md".to_owned(), contents: text.into_bytes() }
@@ -201,4 +223,44 @@ pub fn index(pages: &[(&Paper, &Experiment, Page)], command: &str) -> File {
 
 const LEGEND: &str = "Ours stand with the standard deviation of one replication of the size that was run. *Within*: the \
 published number and ours are no further apart than 3 standard deviations of the difference of two such samples (for \
-counts: by Fisher's exact test); *differs*: they are.";
+counts: by Fisher's exact test); *differs*: they are. A statement *holds* or *does not hold* if what decides it lies further \
+than 2 standard errors from its bound, 3 where several are compared; else it is *undecided*. Errors are compared on the runs \
+that both methods kept, losses on those that one of them lost alone.";
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{PAPERS, Verdict};
+
+    /// Cells of a line of CSV, by its quotes.
+    fn cells(line: &str) -> usize {
+        let outside = line.split('"').step_by(2);
+        1 + outside.map(|part| part.matches(',').count()).sum::<usize>()
+    }
+
+    #[test]
+    fn a_header_has_as_many_cells_as_the_rows() {
+        let mut table = Table::new("t", &["position, m", "a \"word\", and", "plain"]);
+        table.rows.push(vec!["one, two".into(), 2.5.into(), f64::NAN.into()]);
+        let csv = table.csv();
+        assert_eq!(csv.lines().map(cells).collect::<Vec<_>>(), [3, 3]);
+        assert_eq!(csv, "\"position, m\",\"a \"\"word\"\", and\",plain\n\"one, two\",2.5,\n");
+    }
+
+    #[test]
+    fn an_index_has_each_page_with_its_own_command() {
+        let (paper, page) = (&PAPERS[0], |what: &str| Page {
+            claims: vec![Claim::statement(what, "ours", Verdict::Holds)],
+            ..Page::default()
+        });
+        let of = |k: usize, command: &str| {
+            let experiment = &paper.experiments[k];
+            (paper, experiment, page(&format!("claim {k}")).text(paper, experiment, command))
+        };
+        let index = String::from_utf8(index(&[of(0, "first"), of(1, "second")]).contents).unwrap();
+        for wanted in ["Made by `first`.", "Made by `second`.", "| claim 0 |", "| claim 1 |"] {
+            assert_eq!(index.matches(wanted).count(), 1, "{wanted}: {index}");
+        }
+        assert_eq!(index.matches(paper.citation).count(), 1);
+    }
+}

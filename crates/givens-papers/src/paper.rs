@@ -21,12 +21,36 @@ pub struct Experiment {
     pub shows: &'static str,
     /// The paper's own number of runs; zero where nothing is drawn.
     pub runs: usize,
-    /// Runs it.
-    pub run: Run,
+    /// What it keeps of a run until the end, in bytes, rounded up.
+    pub(crate) bytes: usize,
+    pub(crate) with: Run,
 }
 
 /// What runs an experiment.
 pub(crate) type Run = fn(&Plan) -> Result<Page, Trouble>;
+
+/// All runs together may keep so much, in bytes.
+const MEMORY: usize = 2 << 30;
+
+impl Experiment {
+    /// The largest number of runs that memory is set aside for: 2 GiB for what is kept of them.
+    pub fn most(&self) -> usize {
+        MEMORY / self.bytes.max(1)
+    }
+
+    /// Runs it.
+    ///
+    /// # Errors
+    /// More runs than [`most`](Self::most), or a setting that cannot be run at all.
+    pub fn run(&self, plan: &Plan) -> Result<Page, Trouble> {
+        match plan.runs {
+            Some(runs) if self.runs > 0 && runs > self.most() => {
+                Err(format!("{runs} runs are more than memory is set aside for ({})", self.most()).into())
+            }
+            _ => (self.with)(plan),
+        }
+    }
+}
 
 impl core::fmt::Debug for Experiment {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
@@ -88,6 +112,7 @@ pub fn find(key: &str, only: Option<&str>) -> Result<Vec<(&'static Paper, &'stat
     match only {
         Some(name) if found.is_empty() => {
             let mut known: Vec<_> = all.map(|(_, e)| e.name).collect();
+            known.sort_unstable();
             known.dedup();
             Err(Refused::Experiment { name: name.to_owned(), known })
         }

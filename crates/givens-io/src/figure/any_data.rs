@@ -49,8 +49,17 @@ fn axis() -> impl Strategy<Value = Axis> {
         Just(Scale::Log),
         number().prop_map(|unit| Scale::Compressed { unit })
     ];
-    (".{0,12}", prop::option::of([number(), number()]), number(), scale, any::<bool>())
-        .prop_map(|(label, range, padding, scale, labelled)| Axis { label, range, padding, scale, labelled })
+    let ticks = prop::collection::vec((number(), ".{0,12}"), 0..9);
+    (".{0,12}", prop::option::of([number(), number()]), number(), scale, ticks, any::<bool>()).prop_map(
+        |(label, range, padding, scale, ticks, labelled)| Axis {
+            label,
+            range,
+            padding,
+            scale,
+            ticks,
+            labelled,
+        },
+    )
 }
 
 /// Draws both formats and checks what can be checked of any figure.

@@ -60,7 +60,7 @@ impl<'a> Ranged<'a> {
         if self.empty {
             return (Ticks::default(), Ticks::default());
         }
-        let across = x_ticks(frame, fonts);
+        let across = given(&self.panel.x, &frame.x, fonts).unwrap_or_else(|| x_ticks(frame, fonts));
         let alike = || {
             let step = across.values.windows(2).map(|w| w[1] - w[0]).next()?;
             let [lo, hi] = frame.y.range;
@@ -68,7 +68,7 @@ impl<'a> Ranged<'a> {
             (up.values.len() > 1).then_some(up)
         };
         let up = if self.panel.equal { alike() } else { None };
-        let up = up.unwrap_or_else(|| y_ticks(frame));
+        let up = up.or_else(|| given(&self.panel.y, &frame.y, fonts)).unwrap_or_else(|| y_ticks(frame));
         (across, up)
     }
 
@@ -221,6 +221,24 @@ fn about([lo, hi]: [f64; 2], length: f64) -> [f64; 2] {
 
 fn tick_width(text: &str, fonts: &Fonts) -> f64 {
     fonts.width(text, Weight::Regular, TICK_SIZE)
+}
+
+/// The ticks that the axis asks for, every second, third, … where all have no room; none if it asks for none.
+fn given(axis: &Axis, ruler: &Ruler, fonts: &Fonts) -> Option<Ticks> {
+    let [lo, hi] = ruler.range;
+    let inside: Vec<_> = axis.ticks.iter().filter(|(v, _)| (lo..=hi).contains(v)).collect();
+    let every = |step: usize| {
+        let (values, labels) = inside.iter().step_by(step).map(|(v, label)| (*v, label.clone())).unzip();
+        Ticks { values, labels, offset: None }
+    };
+    let fits = |ticks: &Ticks| {
+        let places: Vec<f64> = ticks.values.iter().filter_map(|v| ruler.place(*v)).collect();
+        let gap = places.windows(2).map(|w| (w[1] - w[0]).abs()).fold(f64::INFINITY, f64::min);
+        let widest = ticks.labels.iter().map(|l| tick_width(l, fonts)).fold(0.0, f64::max);
+        widest + 6.0 <= gap
+    };
+    let steps = 1..=inside.len();
+    steps.map(every).find(fits).filter(|ticks| !ticks.values.is_empty())
 }
 
 /// Ticks at easy distances; closer ones where a low panel would have fewer than three.

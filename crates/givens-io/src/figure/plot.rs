@@ -73,13 +73,23 @@ pub struct Axis {
     pub padding: f64,
     /// How values are spread.
     pub scale: Scale,
+    /// Where to tick the axis and what to write there, ascending; empty: at round values. Every second, third, … is kept
+    /// where there is no room for all.
+    pub ticks: Vec<(f64, String)>,
     /// Whether the ticks have numbers and the axis its label; a panel above another needs neither.
     pub labelled: bool,
 }
 
 impl Default for Axis {
     fn default() -> Self {
-        Self { label: String::new(), range: None, padding: 0.04, scale: Scale::Linear, labelled: true }
+        Self {
+            label: String::new(),
+            range: None,
+            padding: 0.04,
+            scale: Scale::Linear,
+            ticks: Vec::new(),
+            labelled: true,
+        }
     }
 }
 

@@ -23,8 +23,7 @@ pub(super) fn ticks(scale: Scale, range: [f64; 2], count: f64) -> Ticks {
     }
     match scale {
         Scale::Linear => linear(lo, hi, count),
-        Scale::Log if hi / lo < 30.0 => spread(scale, range, count, &linear(lo, hi, 4.0 * count).values),
-        Scale::Log => spread(scale, range, count, &decades(lo, hi)),
+        Scale::Log => logarithmic(range, count),
         Scale::Compressed { .. } => {
             let upper = decades(1e-3 * hi.max(-lo), hi.max(-lo));
             let lower = upper.iter().rev().map(|v| -v);
@@ -83,6 +82,19 @@ fn offset(lo: f64, hi: f64, power: i32) -> f64 {
     let units = |v: f64| if coarse < 0 { v * 10f64.powi(-coarse) } else { v / 10f64.powi(coarse) };
     let whole = units(lo + 0.1 * (hi - lo)).floor();
     if coarse < 0 { whole / 10f64.powi(-coarse) } else { whole * 10f64.powi(coarse) }
+}
+
+/// 1, 2 and 5 times the powers of ten; in a range that has fewer than three of them, multiples of one step of 1, 2 or 5.
+fn logarithmic([lo, hi]: [f64; 2], count: f64) -> Ticks {
+    let round = spread(Scale::Log, [lo, hi], count, &decades(lo, hi));
+    if round.values.len() >= 3 {
+        return round;
+    }
+    let apart = (hi / lo).log10() / count * 0.999;
+    let fits = |ticks: &Ticks| ticks.values.windows(2).all(|w| (w[1] / w[0]).log10() >= apart);
+    let finest = (count.ceil() as u32).saturating_mul(4);
+    let even = (1..=finest).rev().map(|count| linear(lo, hi, f64::from(count))).find(fits);
+    even.filter(|even| even.values.len() > round.values.len()).unwrap_or(round)
 }
 
 /// 1, 2 and 5 times the powers of ten in a positive range.
@@ -154,6 +166,14 @@ mod tests {
     #[test]
     fn log_ticks_are_powers_of_ten() {
         assert_eq!(ticks(Scale::Log, [1.0, 1000.0], 4.0).labels, ["1", "10", "100", "1000"]);
+    }
+
+    #[test]
+    fn a_short_log_axis_has_round_steps() {
+        let labels = |lo, hi| ticks(Scale::Log, [lo, hi], 8.0).labels;
+        assert_eq!(labels(500.0, 1250.0), ["600", "800", "1000", "1200"]);
+        assert_eq!(labels(24.0, 47.0), ["25", "30", "35", "40", "45"]);
+        assert_eq!(labels(12.0, 340.0), ["20", "50", "100", "200"]);
     }
 
     #[test]

@@ -50,6 +50,11 @@ pub fn make_folder(path: &Path) -> Result<(), DestinationError> {
     fs::create_dir_all(path).map_err(|source| DestinationError { path: path.to_owned(), source })
 }
 
+/// The text of a file that was written before; none if there is no such file, or no text in it.
+pub fn read_back(path: &Path) -> Option<String> {
+    fs::read_to_string(path).ok()
+}
+
 impl Destination {
     /// Makes sure that `PATH.partial` can be written, and leaves it away until there is something to write. A device, such
     /// as a terminal, is written as it is; behind a link, the file it leads to.
@@ -57,14 +62,27 @@ impl Destination {
     /// # Errors
     /// A path that cannot be written, or that is a folder.
     pub fn create(path: impl AsRef<Path>) -> Result<Self, DestinationError> {
-        let path = path.as_ref().to_owned();
-        match Self::open(&path) {
+        Self::under(path.as_ref(), ".partial")
+    }
+
+    /// The same for a file that other processes may be writing too: until it is finished it is `PATH.ID.partial`, ID that of
+    /// this process. Each of them writes a whole file; the last one stays.
+    ///
+    /// # Errors
+    /// A path that cannot be written, or that is a folder.
+    pub fn shared(path: impl AsRef<Path>) -> Result<Self, DestinationError> {
+        Self::under(path.as_ref(), &format!(".{}.partial", std::process::id()))
+    }
+
+    fn under(path: &Path, ending: &str) -> Result<Self, DestinationError> {
+        let path = path.to_owned();
+        match Self::open(&path, ending) {
             Ok((target, partial, file)) => Ok(Self { path, target, partial, file: file.map(BufWriter::new) }),
             Err(source) => Err(DestinationError { path, source }),
         }
     }
 
-    fn open(path: &Path) -> io::Result<(PathBuf, Option<PathBuf>, Option<File>)> {
+    fn open(path: &Path, ending: &str) -> io::Result<(PathBuf, Option<PathBuf>, Option<File>)> {
         let found = path.metadata().ok();
         if found.as_ref().is_some_and(fs::Metadata::is_dir) {
             return Err(io::Error::new(io::ErrorKind::IsADirectory, "it is a folder"));
@@ -74,7 +92,7 @@ impl Destination {
         }
         let target = if found.is_some() { path.canonicalize()? } else { path.to_owned() };
         let mut partial = target.clone().into_os_string();
-        partial.push(".partial");
+        partial.push(ending);
         let partial = PathBuf::from(partial);
         drop(File::create(&partial)?);
         // a run that is killed before it writes leaves nothing
@@ -154,6 +172,21 @@ mod tests {
         Destination::create(&path).unwrap().write_all(b"other").unwrap();
         assert_eq!(fs::read(&path).unwrap(), b"x");
         assert!(!partial.exists());
+        fs::remove_dir_all(&folder).unwrap();
+    }
+
+    #[test]
+    fn a_shared_file_is_made_under_a_name_of_this_process() {
+        let folder = std::env::temp_dir().join(format!("givens-shared-{}", std::process::id()));
+        fs::create_dir_all(&folder).unwrap();
+        let path = folder.join("out.csv");
+        let (mut one, mut other) = (Destination::shared(&path).unwrap(), Destination::create(&path).unwrap());
+        one.write_all(b"one").unwrap();
+        other.write_all(b"other").unwrap();
+        other.finish().unwrap();
+        one.finish().unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"one");
+        assert_eq!(fs::read_dir(&folder).unwrap().count(), 1);
         fs::remove_dir_all(&folder).unwrap();
     }
 }

@@ -9,7 +9,7 @@ use givens::Estimates;
 use givens::scalar::Shown;
 use std::io::{self, Write};
 
-pub use destination::{Destination, DestinationError, make_folder};
+pub use destination::{Destination, DestinationError, make_folder, read_back};
 pub use simulated::{Drawn, write_measurements, write_states};
 
 use crate::model_file::Model;

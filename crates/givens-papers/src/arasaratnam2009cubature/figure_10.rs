@@ -3,6 +3,7 @@
 use super::curves;
 use super::levels::{CDKF, CKF, ESTIMATED, Levels, NAMES, TRUE};
 use super::turn::{OWN, Scenario};
+use crate::estimate::ONE;
 use crate::{Claim, Expected, Page, Plan, Trouble};
 
 const EXPECTED: &str = include_str!("expected/figure-10.toml");
@@ -20,19 +21,20 @@ pub(super) fn run(plan: &Plan) -> Result<Page, Trouble> {
     )];
     for filter in [CDKF, CKF] {
         let (actual, estimated) = (levels.level(filter, TRUE, 0), levels.level(filter, ESTIMATED, 0));
+        let ratio = levels.ratio((filter, TRUE), (filter, ESTIMATED), 0);
         let statement = Claim::statement(
             format!("the {}'s true errors exceed those it estimates", NAMES[filter]),
-            format!("in position {actual} m against {estimated} m"),
-            actual.value > estimated.value,
+            format!("in position {actual:.1} m against {estimated:.1} m, a factor {ratio:.2}"),
+            ratio.above(1.0, ONE),
         );
         let (lost, kept) = (levels.lost(filter), levels.kept(filter, 0));
-        claims.push(statement.remark(format!("{lost} of {runs} tracks lost; without them {kept} m")));
+        claims.push(statement.remark(format!("{lost} of {runs} tracks lost; without them {kept:.1} m")));
     }
-    let ratio = levels.level(CKF, ESTIMATED, 0).value / levels.level(CDKF, ESTIMATED, 0).value;
+    let ratio = levels.ratio((CKF, ESTIMATED), (CDKF, ESTIMATED), 0);
     claims.push(Claim::statement(
-        "the two filters' covariances differ little",
+        "the two filters' covariances differ little (judged: within 10 %)",
         format!("estimated errors in position, CKF over CDKF: {ratio:.3}"),
-        (ratio - 1.0).abs() < 0.1,
+        ratio.between([0.9, 1.1], ONE),
     ));
     Ok(Page {
         about: format!(
@@ -46,6 +48,7 @@ pub(super) fn run(plan: &Plan) -> Result<Page, Trouble> {
             curves::shown("Turning aircraft, noise of two Gaussians: root-mean-square errors", &levels),
         )],
         failures: levels.failures(),
+        ..Page::default()
     })
 }
 

@@ -2,8 +2,9 @@
 
 use super::turn::{OWN, Runs, SCANS, Scenario, first_lost, off, runs};
 use crate::page::Table;
-use crate::statistics::{root_mean, spread};
-use crate::{Failures, Plan, Trouble};
+use crate::paired::ratio;
+use crate::statistics::{root_mean, root_of};
+use crate::{Estimate, Failures, Plan, Trouble};
 use givens::Outcome;
 
 /// The paper's filters, by the names of the registry.
@@ -39,19 +40,6 @@ pub(super) struct Levels {
     filters: Vec<Runs<Track>>,
 }
 
-/// A level, and the standard deviation of one replication.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Level {
-    pub value: f64,
-    pub spread: f64,
-}
-
-impl core::fmt::Display for Level {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        write!(f, "{:.1} ± {:.1}", self.value, self.spread)
-    }
-}
-
 impl Levels {
     /// Makes the runs.
     pub fn new(plan: &Plan, scenario: Scenario) -> Result<Self, Trouble> {
@@ -59,22 +47,22 @@ impl Levels {
     }
 
     /// The root of the mean square over runs and scans of quantity `i`.
-    pub fn level(&self, filter: usize, rows: Rows, i: usize) -> Level {
-        root(self.filters[filter].ended().map(|track| mean(rows(track), i)))
+    pub fn level(&self, filter: usize, rows: Rows, i: usize) -> Estimate {
+        root_of(self.filters[filter].ended().map(|track| mean(rows(track), i)))
     }
 
     /// The true error over the runs that were not lost.
-    pub fn kept(&self, filter: usize, i: usize) -> Level {
-        root(self.filters[filter].ended().filter(|track| !track.lost).map(|track| mean(&track.squares, i)))
+    pub fn kept(&self, filter: usize, i: usize) -> Estimate {
+        root_of(self.filters[filter].ended().filter(|track| !track.lost).map(|track| mean(&track.squares, i)))
     }
 
-    /// By how much the mean squared position error of a filter exceeds that of another, on the runs that both ended.
-    pub fn excess(&self, filter: usize, other: usize) -> Level {
-        let pairs = self.filters[filter].each.iter().zip(&self.filters[other].each);
-        let both = pairs.filter_map(|(a, b)| Some((a.as_ref()?, b.as_ref()?)));
-        let runs: Vec<f64> = both.map(|(a, b)| mean(&a.squares, 0) - mean(&b.squares, 0)).collect();
-        let average = |sample: &mut dyn Iterator<Item = f64>| sample.sum::<f64>() / runs.len() as f64;
-        Level { value: average(&mut runs.iter().copied()), spread: spread(&runs, average) }
+    /// One level over another, on the runs that both ended.
+    pub fn ratio(&self, of: (usize, Rows), over: (usize, Rows), i: usize) -> Estimate {
+        let squares = |(filter, rows): (usize, Rows)| -> Vec<Option<f64>> {
+            let each = self.filters[filter].each.iter();
+            each.map(|track| track.as_ref().map(|track| mean(rows(track), i))).collect()
+        };
+        ratio(&squares(of), &squares(over))
     }
 
     /// The error at scan 50 + `k` over the runs.
@@ -97,7 +85,7 @@ impl Levels {
         let of = |(name, runs): (&&str, &Runs<Track>)| {
             let mut failures = runs.halted.clone();
             runs.ended().filter(|track| track.lost).for_each(|_| failures.note_kind(LOST));
-            ((*name).to_owned(), failures)
+            (format!("{name}, square-root form"), failures)
         };
         NAMES.iter().zip(&self.filters).map(of).collect()
     }
@@ -112,10 +100,10 @@ impl Levels {
                 let (actual, estimated) = (self.level(filter, TRUE, i), self.level(filter, ESTIMATED, i));
                 let cells = [
                     actual.value,
-                    actual.spread,
+                    actual.error,
                     self.kept(filter, i).value,
                     estimated.value,
-                    estimated.spread,
+                    estimated.error,
                 ];
                 let mut row = vec![(*name).into(), (*quantity).into()];
                 row.extend(cells.map(Into::into));
@@ -128,11 +116,6 @@ impl Levels {
 
 fn mean(rows: &[[f64; 3]], i: usize) -> f64 {
     rows.iter().map(|row| row[i]).sum::<f64>() / rows.len() as f64
-}
-
-fn root(squares: impl Iterator<Item = f64>) -> Level {
-    let runs: Vec<f64> = squares.collect();
-    Level { value: root_mean(runs.iter().copied()), spread: spread(&runs, |sample| root_mean(sample)) }
 }
 
 fn track(outcome: &Outcome, truth: &[[f64; 5]]) -> Track {

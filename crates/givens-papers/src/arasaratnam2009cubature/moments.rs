@@ -2,9 +2,10 @@
 
 use super::multiquadric::{Moments, POWERS, by_rule, random_root, sampled};
 use crate::drawing::{COLOURS, line};
+use crate::estimate::{MANY, all as judged};
 use crate::page::Table;
-use crate::statistics::spread;
-use crate::{Failures, Plan, Trouble};
+use crate::statistics::mean_of;
+use crate::{Estimate, Failures, Plan, Trouble, Verdict};
 use givens::rule::{CentralDifference, Cubature3, Taylor, Unscented};
 use givens::simulate::Stream;
 use givens_io::figure::{Axis, Mark, Panel, Shape};
@@ -28,36 +29,39 @@ pub(super) struct Setting {
     pub variance: f64,
 }
 
-/// What became of one setting: for each power and each rule, the divergences of the covariances that gave one.
+/// What became of one setting: for each power and each rule, the divergences over the covariances.
 pub(super) struct Scores {
     pub setting: Setting,
     /// The number of covariances.
     pub runs: usize,
-    divergences: [[Vec<f64>; 4]; 4],
+    /// By power, then by rule; `None` for a covariance that gave no variance.
+    divergences: [[Vec<Option<f64>>; 4]; 4],
     /// The variances that are no variance, by rule.
     failures: [Failures; 4],
 }
 
 impl Scores {
-    /// The mean divergence of a rule; NaN if it never gave one.
-    pub fn mean(&self, power: usize, rule: usize) -> f64 {
-        mean(&mut self.divergences[power][rule].iter().copied())
+    /// The mean divergence of a rule over the covariances that gave one.
+    pub fn mean(&self, power: usize, rule: usize) -> Estimate {
+        mean_of(self.divergences[power][rule].iter().flatten().copied())
     }
 
-    /// By how much the mean divergence of the CDKF exceeds that of the CKF.
-    pub fn gap(&self, power: usize) -> f64 {
-        self.mean(power, CDKF) - self.mean(power, CKF)
+    /// By how much the mean divergence of the CDKF exceeds that of the CKF, on the same covariances.
+    pub fn gap(&self, power: usize) -> Estimate {
+        self.more([power, CDKF], [power, CKF])
     }
 
-    /// The standard deviation of a rule's mean over replications.
-    pub fn spread(&self, power: usize, rule: usize) -> f64 {
-        spread(&self.divergences[power][rule], mean)
+    /// By how much the mean divergence of one power and rule exceeds that of another, on the same covariances.
+    pub fn more(&self, of: [usize; 2], than: [usize; 2]) -> Estimate {
+        let [of, than] = [of, than].map(|[power, rule]| &self.divergences[power][rule]);
+        mean_of(of.iter().zip(than).filter_map(|(a, b)| Some((*a)? - (*b)?)))
     }
-}
 
-fn mean(sample: &mut dyn Iterator<Item = f64>) -> f64 {
-    let (sum, count) = sample.fold((0.0, 0.0), |(sum, count), x| (sum + x, count + 1.0));
-    sum / count
+    /// Covariances of which a rule gives no variance at any power.
+    pub fn never(&self, rule: usize) -> usize {
+        let none = |run: &usize| self.divergences.iter().all(|of| of[rule][*run].is_none());
+        (0..self.runs).filter(none).count()
+    }
 }
 
 /// All settings, `plan.runs` covariances each.
@@ -83,12 +87,14 @@ pub(super) fn scores(plan: &Plan, settings: &[Setting]) -> Result<Vec<Scores>, T
             for power in 0..POWERS.len() {
                 let (failures, divergence) =
                     (&mut scores.failures[rule], truth[power].divergence(&estimates[power]));
-                match estimates[power].variance {
-                    0.0 => failures.note_kind("variance of zero"),
-                    negative if negative < 0.0 => failures.note_kind("negative variance"),
-                    _ if !divergence.is_finite() => failures.note_kind("not a number"),
-                    _ => scores.divergences[power][rule].push(divergence),
-                }
+                let wrong = match estimates[power].variance {
+                    0.0 => Some("of zero"),
+                    negative if negative < 0.0 => Some("negative"),
+                    _ if !divergence.is_finite() => Some("not a number"),
+                    _ => None,
+                };
+                wrong.into_iter().for_each(|kind| failures.note_kind(kind));
+                scores.divergences[power][rule].push(wrong.is_none().then_some(divergence));
             }
         }
     }
@@ -115,14 +121,15 @@ pub(super) fn table(all: &[Scores]) -> Table {
     for scores in all {
         for (power, p) in POWERS.iter().enumerate() {
             for (rule, name) in RULES.iter().enumerate() {
-                let given = scores.divergences[power][rule].len();
+                let given = scores.divergences[power][rule].iter().flatten().count();
+                let mean = scores.mean(power, rule);
                 table.rows.push(vec![
                     scores.setting.states.into(),
                     scores.setting.variance.into(),
                     f64::from(*p).into(),
                     (*name).into(),
-                    scores.mean(power, rule).into(),
-                    scores.spread(power, rule).into(),
+                    mean.value.into(),
+                    mean.error.into(),
                     scores.runs.into(),
                     (scores.runs - given).into(),
                 ]);
@@ -132,10 +139,16 @@ pub(super) fn table(all: &[Scores]) -> Table {
     table
 }
 
-/// The rules' failures over all settings.
+/// What [`failures`] counts.
+pub(super) const FAILING: &str = "Variances that are none, of all covariances at all settings and powers";
+
+/// The rules' failures over all settings. The form makes no difference: each rule is applied to a given root.
 pub(super) fn failures(all: &[Scores]) -> Vec<(String, Failures)> {
-    let mut sums: Vec<(String, Failures)> =
-        RULES.iter().map(|name| ((*name).to_owned(), Failures::default())).collect();
+    let tried = POWERS.len() * all.iter().map(|scores| scores.runs).sum::<usize>();
+    let mut sums: Vec<(String, Failures)> = RULES
+        .iter()
+        .map(|name| (format!("rule of the {name} ({tried} tried)"), Failures::default()))
+        .collect();
     for scores in all {
         for (sum, failures) in sums.iter_mut().zip(&scores.failures) {
             sum.1.add(failures);
@@ -144,26 +157,46 @@ pub(super) fn failures(all: &[Scores]) -> Vec<(String, Failures)> {
     sums
 }
 
-/// Whether the gap between CDKF and CKF is wider at the last setting than at the first, for every power, and in words.
-pub(super) fn widens(all: &[Scores]) -> (bool, String) {
-    let (Some(first), Some(last)) = (all.first(), all.last()) else { return (false, String::new()) };
-    let powers = 0..POWERS.len();
-    let gaps = powers
-        .clone()
-        .map(|power| format!("{:.2} to {:.2} (p = {})", first.gap(power), last.gap(power), POWERS[power]));
-    let words = gaps.collect::<Vec<_>>().join(", ");
-    (powers.clone().all(|power| last.gap(power) > first.gap(power)), words)
+/// Whether the gap between CDKF and CKF is wider at the last setting than at the first, for every power.
+pub(super) fn widens(all: &[Scores]) -> (String, Verdict) {
+    let (Some(first), Some(last)) = (all.first(), all.last()) else {
+        return (String::new(), Verdict::Undecided(crate::estimate::NOTHING));
+    };
+    let of = |power: usize| (first.gap(power), last.gap(power));
+    let word = |power: usize| {
+        let (first, last) = of(power);
+        format!("{first:.2} to {last:.2} (p = {})", POWERS[power])
+    };
+    let words: Vec<String> = (0..POWERS.len()).map(word).collect();
+    let verdict = (0..POWERS.len()).map(of).map(|(first, last)| last.less(first).above(0.0, MANY));
+    (format!("its excess: {}", words.join(", ")), judged(verdict))
 }
 
-/// Where the divergence of the cubature rule is not below that of the central difference: how many settings, and which.
-pub(super) fn not_below(all: &[Scores]) -> Vec<(Setting, i32)> {
-    let worse = |scores: &Scores, power: usize| scores.mean(power, CKF) >= scores.mean(power, CDKF);
-    let of = |scores: &Scores| {
-        let setting = scores.setting;
-        let powers = (0..POWERS.len()).filter(|&power| worse(scores, power));
-        powers.map(|power| (setting, POWERS[power])).collect::<Vec<_>>()
-    };
-    all.iter().flat_map(of).collect()
+/// Whether the divergence of the cubature rule is below that of the central difference at every setting and power.
+pub(super) fn inferior(all: &[Scores], name: impl Fn(&Setting) -> String) -> (String, Verdict) {
+    let (mut verdicts, mut above, mut open) = (Vec::new(), Vec::new(), Vec::new());
+    for scores in all {
+        for (power, p) in POWERS.iter().enumerate() {
+            let gap = scores.gap(power);
+            let verdict = gap.above(0.0, MANY);
+            let word = format!("{} p = {p} ({gap:.2})", name(&scores.setting));
+            match verdict {
+                Verdict::Holds => {}
+                Verdict::Fails => above.push(word),
+                _ => open.push(word),
+            }
+            verdicts.push(verdict);
+        }
+    }
+    let below = verdicts.len() - above.len() - open.len();
+    let mut ours = format!("the CDKF's divergence is the higher at {below} of {} settings", verdicts.len());
+    // where runs are few, all are undecided, and no list says more
+    for (word, list) in [("the lower", above), ("undecided", open)] {
+        if !list.is_empty() && list.len() < 10 {
+            ours += &format!("; {word} at {}", list.join(", "));
+        }
+    }
+    (ours, judged(verdicts))
 }
 
 /// The divergences of one rule over `x`, one line a power, and the published values as rings.
@@ -177,7 +210,7 @@ pub(super) fn panel(
 ) -> Panel {
     let mut marks = Vec::new();
     for (power, p) in POWERS.iter().enumerate() {
-        let points = all.iter().map(|scores| [x(&scores.setting), scores.mean(power, rule)]).collect();
+        let points = all.iter().map(|scores| [x(&scores.setting), scores.mean(power, rule).value]).collect();
         let sign = if *p < 0 { "−" } else { "" };
         marks.push(line(&format!("p = {sign}{}", p.abs()), COLOURS[power], points));
     }

@@ -5,6 +5,7 @@ mod counted;
 mod figures;
 mod runs;
 mod start;
+mod statements;
 mod table_5;
 mod tables;
 
@@ -12,8 +13,8 @@ pub use runs::lost;
 
 use crate::{Experiment, Paper};
 
-const fn table(name: &'static str, shows: &'static str, run: crate::paper::Run) -> Experiment {
-    Experiment { name, shows, runs: runs::OWN, run }
+const fn table(name: &'static str, shows: &'static str, with: crate::paper::Run) -> Experiment {
+    Experiment { name, shows, runs: runs::OWN, bytes: 32_000, with }
 }
 
 /// The paper.
@@ -30,7 +31,8 @@ pub const PAPER: Paper = Paper {
             name: "table-5",
             shows: "Table V: operations of the square-root filter, counted",
             runs: 0,
-            run: table_5::run,
+            bytes: 0,
+            with: table_5::run,
         },
     ],
 };

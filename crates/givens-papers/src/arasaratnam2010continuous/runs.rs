@@ -1,7 +1,7 @@
 //! The filters, the readings of what the paper leaves open, and all runs at one sampling interval.
 
 use super::start::two_points;
-use crate::radar::{Diverged, Drawn, Radar, Scene, Track, method, position};
+use crate::radar::{Diverged, Drawn, Lost, Radar, Scene, Track, method, position};
 use crate::{Failures, Plan, Trouble};
 use givens::filter::Gaussian;
 use givens::model::zoo::Turn3d;
@@ -21,7 +21,7 @@ const LENGTH: f64 = 210.0;
 /// Errors are scored from here on, s.
 const SCORED: f64 = 60.0;
 /// An error beyond this, m, is a divergence.
-const LOST: f64 = 500.0;
+const BEYOND: f64 = 500.0;
 
 /// How the turn rate was started, which the paper does not say.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -98,14 +98,8 @@ pub(super) fn scene(sigma: f64, omega: f64, interval: f64) -> Scene {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Cell {
     pub lost: Failures,
-    /// Of each run that was not lost, the mean squares of the errors in position, velocity and turn rate (m, m/s, rad/s).
-    pub squares: Vec<[f64; 3]>,
-}
-
-impl Cell {
-    pub fn runs(&self) -> usize {
-        self.lost.count() + self.squares.len()
-    }
+    /// Of each run the mean squares of the errors in position, velocity and turn rate (m, m/s, rad/s); `None` of a lost one.
+    pub squares: Vec<Option<[f64; 3]>>,
 }
 
 /// All runs at one interval: by reading, turn rate, filter and number of steps (as [`Reading::steps`]).
@@ -119,20 +113,28 @@ impl Cells {
     pub fn get(&self, reading: usize, omega: usize, method: usize, steps: usize) -> &Cell {
         &self.0[Self::at(reading, omega, method, steps)]
     }
+
+    pub fn none() -> Self {
+        Self(vec![Cell::default(); Self::at(READINGS.len(), 0, 0, 0)])
+    }
+
+    #[cfg(test)]
+    pub fn get_mut(&mut self, reading: usize, omega: usize, method: usize, steps: usize) -> &mut Cell {
+        &mut self.0[Self::at(reading, omega, method, steps)]
+    }
 }
 
 /// All runs at an interval, in seconds.
 pub(super) fn cells(plan: &Plan, interval: f64) -> Result<Cells, Trouble> {
     let answers = plan.each(plan.runs(OWN), |run| one(plan.seed, run, interval));
-    let size = Cells::at(READINGS.len(), 0, 0, 0);
-    let mut cells = Cells(vec![Cell::default(); size]);
+    let mut cells = Cells::none();
     for answer in answers {
-        for (at, track) in answer? {
+        for (at, squares) in answer? {
             let cell = &mut cells.0[at];
-            match &track.lost {
-                Some(lost) => cell.lost.note_lost(lost),
-                None => cell.squares.push(squares(&track, interval)),
+            if let Err(lost) = &squares {
+                cell.lost.note_lost(lost);
             }
+            cell.squares.push(squares.ok());
         }
     }
     Ok(cells)
@@ -168,8 +170,11 @@ impl World {
     }
 }
 
-/// One run of everything.
-fn one(seed: u64, run: u32, interval: f64) -> Result<Vec<(usize, Track)>, Trouble> {
+/// What is kept of a run of one filter: mean squares, or why it was lost.
+type Answer = Result<[f64; 3], Lost>;
+
+/// One run of everything: of each cell.
+fn one(seed: u64, run: u32, interval: f64) -> Result<Vec<(usize, Answer)>, Trouble> {
     let mut tracks = Vec::new();
     for (i, omega) in OMEGAS.into_iter().enumerate() {
         for readings in READINGS.as_chunks::<2>().0 {
@@ -179,7 +184,9 @@ fn one(seed: u64, run: u32, interval: f64) -> Result<Vec<(usize, Track)>, Troubl
                 let prior = world.start(reading.start)?;
                 for method in 0..METHODS.len() {
                     for (s, &steps) in reading.steps().iter().enumerate() {
-                        tracks.push((Cells::at(r, i, method, s), world.track(&prior, method, steps)?));
+                        let track = world.track(&prior, method, steps)?;
+                        let answer = track.lost.map_or_else(|| Ok(squares(&track.errors, interval)), Err);
+                        tracks.push((Cells::at(r, i, method, s), answer));
                     }
                 }
             }
@@ -209,12 +216,12 @@ pub fn lost(
     runs.into_iter().try_fold(0, |sum, lost| Ok(sum + usize::from(lost?)))
 }
 
-const FAR: Diverged = |errors| errors.iter().any(|error| position(error) > LOST);
+const FAR: Diverged = |errors| errors.iter().any(|error| position(error) > BEYOND);
 
 /// The mean squares from [`SCORED`] on; the first error is that of the third measurement.
-fn squares(track: &Track, interval: f64) -> [f64; 3] {
+fn squares(errors: &[[f64; 7]], interval: f64) -> [f64; 3] {
     let skip = ((SCORED / interval).ceil() as usize).saturating_sub(2);
-    let scored = track.errors.get(skip..).unwrap_or_default();
+    let scored = errors.get(skip..).unwrap_or_default();
     let mean = |of: fn(&[f64; 7]) -> f64| scored.iter().map(of).sum::<f64>() / scored.len() as f64;
     [
         mean(|e| e[0] * e[0] + e[2] * e[2] + e[4] * e[4]),

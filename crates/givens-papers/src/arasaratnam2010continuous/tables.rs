@@ -1,9 +1,10 @@
 //! Tables I–IV: runs lost of 100, by turn rate and number of steps, each at one sampling interval.
 
 use super::claims::claims;
-use super::figures::{draw, error};
+use super::figures::{NO_POINT, draw, error};
 use super::runs::{Cells, METHODS, OMEGAS, OWN, READINGS, cells, form};
 use crate::page::Table;
+use crate::statistics::share_error;
 use crate::{Page, Plan, Trouble};
 
 pub(super) fn two(plan: &Plan) -> Result<Page, Trouble> {
@@ -32,12 +33,13 @@ fn page(plan: &Plan, number: usize, interval: f64) -> Result<Page, Trouble> {
              differencing. The paper leaves open how the turn rate was started, and prints σ₂ = 7·10⁻³ where the authors' \
              program has 7·10⁻⁴: the four readings stand side by side, and the figure shows the first. The CD-UKF is run by \
              both its readings, the unscented Euler–Maruyama step and Euler's method on the moment equations. CD-EKF and \
-             CD-UKF are in covariance form, the CD-CKF in square-root form."
+             CD-UKF are in covariance form, the CD-CKF in square-root form. {NO_POINT}"
         ),
-        claims: claims(&cells, number, interval),
+        claims: claims(&cells, number, interval)?,
         tables: vec![lost(&cells), errors(&cells)],
         figures: vec![("errors", draw(&cells, number + 1, interval))],
         failures: failures(&cells),
+        ..Page::default()
     })
 }
 
@@ -51,31 +53,34 @@ fn rows() -> impl Iterator<Item = (usize, usize, usize, usize)> {
 }
 
 fn lost(cells: &Cells) -> Table {
-    let mut table =
-        Table::new("lost", &["reading", "filter", "m", "lost_omega_3", "lost_omega_4.5", "lost_omega_6"]);
+    let columns =
+        ["reading", "filter", "m", "runs", "lost_omega_3", "±", "lost_omega_4.5", "±", "lost_omega_6", "±"];
+    let mut table = Table::new("lost", &columns);
     for (r, method, s, steps) in rows() {
-        let mut row = vec![READINGS[r].name().into(), METHODS[method].0.into(), steps.into()];
-        row.extend((0..OMEGAS.len()).map(|omega| cells.get(r, omega, method, s).lost.count().into()));
+        let runs = cells.get(r, 0, method, s).squares.len();
+        let mut row = vec![READINGS[r].name().into(), METHODS[method].0.into(), steps.into(), runs.into()];
+        for omega in 0..OMEGAS.len() {
+            let lost = cells.get(r, omega, method, s).lost.count();
+            row.extend([lost.into(), (runs as f64 * share_error(lost, runs)).into()]);
+        }
         table.rows.push(row);
     }
     table
 }
 
 fn errors(cells: &Cells) -> Table {
-    let columns = ["reading", "filter", "m", "omega", "position_m", "velocity_m_s", "rate_deg_s"];
+    let columns =
+        ["reading", "filter", "m", "omega", "position_m", "±", "velocity_m_s", "±", "rate_deg_s", "±"];
     let mut table = Table::new("errors", &columns);
     for (r, method, s, steps) in rows() {
         for (i, omega) in OMEGAS.into_iter().enumerate() {
-            let of = |which: usize| error(cells, [r, i, method, s], which);
-            table.rows.push(vec![
-                READINGS[r].name().into(),
-                METHODS[method].0.into(),
-                steps.into(),
-                omega.into(),
-                of(0).into(),
-                of(1).into(),
-                of(2).to_degrees().into(),
-            ]);
+            let mut row =
+                vec![READINGS[r].name().into(), METHODS[method].0.into(), steps.into(), omega.into()];
+            for (which, unit) in [1.0, 1.0, 1f64.to_degrees()].into_iter().enumerate() {
+                let found = error(cells, [r, i, method, s], which);
+                row.extend([(unit * found.value).into(), (unit * found.error).into()]);
+            }
+            table.rows.push(row);
         }
     }
     table

@@ -15,13 +15,15 @@ pub const PAPER: Paper = Paper {
             name: "figures-1-3",
             shows: "Figures 1–3: errors in position, velocity and ballistic coefficient over time",
             runs: runs::OWN,
-            run: figures::run,
+            bytes: 10_000,
+            with: figures::run,
         },
         Experiment {
             name: "table-4",
             shows: "Table 4: accumulated errors of the filter and of four smoothers",
             runs: runs::OWN,
-            run: table_4::run,
+            bytes: 10_000,
+            with: table_4::run,
         },
     ],
 };

@@ -1,5 +1,6 @@
 //! The target, and one run of each estimator after it.
 
+use crate::statistics::mean;
 use crate::{Failures, Plan, Trouble};
 use givens::filter::Gaussian;
 use givens::model::zoo::{RangeAside, Reentry};
@@ -46,12 +47,20 @@ impl Transition for EulerMap {
 pub(super) struct Track {
     /// Squared errors of each row.
     pub squares: Vec<[f64; 3]>,
-    /// The coefficient at the first row, less that of the filter at the last, in the filter's standard deviations there.
+    /// The coefficient, less that of the filter at the last row, in the filter's standard deviations there: of all rows that
+    /// which is farthest from it.
     pub constant: f64,
 }
 
-/// The tracks by estimator, then by run, and the runs that failed.
-pub(super) type Runs = (Vec<Vec<Track>>, Vec<(String, Failures)>);
+impl Track {
+    /// Of the errors of a state, over the rows.
+    pub fn mean_square(&self, state: usize) -> f64 {
+        mean(self.squares.iter().map(|row| row[state]))
+    }
+}
+
+/// The tracks by estimator, then by run, `None` for one that failed; and what failed.
+pub(super) type Runs = (Vec<Vec<Option<Track>>>, Vec<(String, Failures)>);
 
 /// All runs of the estimators that are wanted.
 pub(super) fn tracks(plan: &Plan, wanted: &[(&str, &str, bool)]) -> Result<Runs, Trouble> {
@@ -66,15 +75,15 @@ pub(super) fn tracks(plan: &Plan, wanted: &[(&str, &str, bool)]) -> Result<Runs,
         };
         wanted.iter().map(one).collect()
     });
-    let mut tracks: Vec<Vec<Track>> = wanted.iter().map(|_| Vec::new()).collect();
-    let mut failures: Vec<_> =
-        wanted.iter().map(|(name, ..)| ((*name).to_owned(), Failures::default())).collect();
+    let mut tracks: Vec<Vec<Option<Track>>> = wanted.iter().map(|_| Vec::new()).collect();
+    let named = |name: &str| format!("{}, square-root form", name.to_uppercase());
+    let mut failures: Vec<_> = wanted.iter().map(|(name, ..)| (named(name), Failures::default())).collect();
     for run in answers {
         for (i, answer) in run?.into_iter().enumerate() {
-            match answer {
-                Ok(track) => tracks[i].push(track),
-                Err(error) => failures[i].1.note(&error),
+            if let Err(error) = &answer {
+                failures[i].1.note(error);
             }
+            tracks[i].push(answer.ok());
         }
     }
     Ok((tracks, failures))
@@ -111,7 +120,8 @@ fn track(est: &Estimates, truth: &[[f64; 3]]) -> Track {
     let squares = (0..est.len()).map(|k| [0, 1, 2].map(|i| error(k, i))).collect();
     let last = ROWS - 1;
     let constant = if est.is_smoothed() {
-        (est.mean(0)[2] - est.filtered_mean(last)[2]) / est.filtered_cov(last)[8].sqrt()
+        let from = |k: usize| (est.mean(k)[2] - est.filtered_mean(last)[2]).abs();
+        (0..=last).map(from).fold(0.0, f64::max) / est.filtered_cov(last)[8].sqrt()
     } else {
         f64::NAN
     };

@@ -19,13 +19,15 @@ pub const PAPER: Paper = Paper {
             name: "table-1",
             shows: "Table 1 and Figure 1: runs lost and errors in position, T = 4 s",
             runs: runs::OWN,
-            run: table::one,
+            bytes: 8_000,
+            with: table::one,
         },
         Experiment {
             name: "table-2",
             shows: "Table 2 and Figure 2: runs lost and errors in position, T = 8 s",
             runs: runs::OWN,
-            run: table::two,
+            bytes: 8_000,
+            with: table::two,
         },
     ],
 };

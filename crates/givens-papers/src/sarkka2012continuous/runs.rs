@@ -66,8 +66,11 @@ pub(super) struct Cell {
     pub lost: Failures,
     /// Runs that went on although their error exceeded the bound: the extended filter's only, which are not counted.
     pub strayed: usize,
-    /// Of each run that was not lost, the mean square of the error in position, m².
-    pub squares: Vec<f64>,
+    /// Of each run the mean square of the error in position, m²; `None` where it failed or its error exceeded the bound,
+    /// counted or not: alike for all filters.
+    pub kept: Vec<Option<f64>>,
+    /// The same, and `None` only where it failed.
+    pub ended: Vec<Option<f64>>,
 }
 
 /// By method, then by number of steps.
@@ -102,10 +105,11 @@ impl Cell {
     fn note(&mut self, method: usize, (lost, square): Answer) {
         match lost {
             Some(Lost::Diverged) if METHODS[method].registry.is_none() => self.strayed += 1,
-            Some(lost) => return self.lost.note_lost(&lost),
+            Some(lost) => self.lost.note_lost(&lost),
             None => {}
         }
-        self.squares.push(square);
+        self.kept.push(lost.is_none().then_some(square));
+        self.ended.push(matches!(lost, None | Some(Lost::Diverged)).then_some(square));
     }
 }
 

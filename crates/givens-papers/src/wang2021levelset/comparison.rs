@@ -1,9 +1,11 @@
 //! The turning aircraft of §4: what each method makes of the same runs, from either start.
 
+use crate::estimate::{MANY, all};
 use crate::page::Table;
+use crate::paired::{better, ratio};
 use crate::radar::{Lost, Radar, Scene, about, method};
-use crate::statistics::{fisher, root_mean, spread, z_of};
-use crate::{Failures, Plan, Trouble};
+use crate::statistics::root_of;
+use crate::{Estimate, Failures, Plan, Trouble, Verdict};
 use givens::filter::Gaussian;
 use givens::model::zoo::{Radar3d, Turn3d};
 use givens::registry::Choice;
@@ -78,9 +80,7 @@ pub(super) struct Outcome {
     /// Mean squares of each run; `None` where it was lost.
     kept: Vec<Option<[f64; 3]>>,
     /// Root-mean-square errors over scans and runs that were not lost.
-    pub errors: [f64; 3],
-    /// Standard deviations of one such replication.
-    pub spreads: [f64; 3],
+    pub errors: [Estimate; 3],
     /// Runs.
     pub runs: usize,
     /// The lost ones by kind.
@@ -118,41 +118,21 @@ pub(super) fn compare(
         let kept = runs.iter().map(|run| &run[at]).map(|score| score.lost.is_none().then_some(score.squares));
         let kept: Vec<Option<[f64; 3]>> = kept.collect();
         let of = |i: usize| -> Vec<f64> { kept.iter().flatten().map(|squares| squares[i]).collect() };
-        Outcome {
-            errors: [0, 1, 2].map(|i| root_mean(of(i))),
-            spreads: [0, 1, 2].map(|i| spread(&of(i), |sample| root_mean(sample))),
-            runs: runs.len(),
-            lost,
-            kept,
-        }
+        Outcome { errors: [0, 1, 2].map(|i| root_of(of(i))), runs: runs.len(), lost, kept }
     };
     let count = methods.len();
     Ok([(0..count).map(outcome).collect(), (count..2 * count).map(outcome).collect()])
 }
 
 impl Outcome {
-    /// How much more than another it errs on the runs that neither lost, in what [`OF`] says of index `i`: in standard
-    /// deviations of the difference of paired runs.
-    fn more(&self, other: &Self, i: usize) -> f64 {
-        let pairs = self.kept.iter().zip(&other.kept);
-        let differences: Vec<f64> = pairs.filter_map(|(a, b)| Some((*a)?[i] - (*b)?[i])).collect();
-        let count = differences.len() as f64;
-        let mean = differences.iter().sum::<f64>() / count;
-        let variance = differences.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / (count - 1.0);
-        mean / (variance / count).sqrt()
+    /// The mean squares of each run, of what [`OF`] says of index `i`.
+    pub fn squares(&self, i: usize) -> Vec<Option<f64>> {
+        self.kept.iter().map(|kept| kept.map(|squares| squares[i])).collect()
     }
 
-    /// Better than another on the same runs: it loses no more and errs less, or loses fewer.
-    fn better(&self, other: &Self, i: usize) -> bool {
-        let (own, theirs) = (self.lost.count(), other.lost.count());
-        own < theirs || own == theirs && self.more(other, i) < 0.0
-    }
-
-    /// Worse than another on the same runs, and not by chance: by more than 3 standard deviations.
-    fn worse(&self, other: &Self, i: usize) -> bool {
-        let losses = |of: &Self| [of.lost.count(), of.runs - of.lost.count()];
-        let more = self.lost.count() > other.lost.count();
-        more && z_of(fisher(losses(self), losses(other))) > 3.0 || self.more(other, i) > 3.0
+    /// Its error over that of another, on the runs that both kept.
+    pub fn over(&self, other: &Self, i: usize) -> Estimate {
+        ratio(&self.squares(i), &other.squares(i))
     }
 
     /// The error in position with its spread.
@@ -161,37 +141,40 @@ impl Outcome {
             0 => String::new(),
             lost => format!(" ({lost} lost)"),
         };
-        format!("{:.1} ± {:.1} m{lost}", self.errors[0], self.spreads[0])
+        format!("{:.1} m{lost}", self.errors[0])
     }
 
     /// The rest of a row of [`table`].
     pub fn row(&self, row: &mut Vec<crate::Cell>) {
-        for (&error, &spread) in self.errors.iter().zip(&self.spreads) {
-            row.extend([error.into(), spread.into()]);
+        for error in &self.errors {
+            row.extend([error.value.into(), error.error.into()]);
         }
         row.extend([self.lost.count().into(), self.lost.to_string().into()]);
     }
 }
 
 /// How [`outperforms`] judges, for the reader.
-pub(super) const OUTPERFORMS: &str = "That one method outperforms another is said to hold where it is better in nine settings \
-                                      of ten and worse by more than 3 σ of the paired difference, or of the losses, in none.";
+pub(super) const OUTPERFORMS: &str = "In a setting one method is better than another if it loses fewer runs or, where neither \
+                                      is shown to lose more, errs less on the runs that both kept: by 3 standard errors. That \
+                                      it outperforms the other is said to hold where it is better in every setting, and not \
+                                      to hold where it is worse in one.";
 
 /// Whether one method outperforms another in all settings, each a pair of outcomes on the same runs, and in how many.
-pub(super) fn outperforms(settings: &[(&Outcome, &Outcome)]) -> (String, bool) {
-    let count = |i: usize, test: fn(&Outcome, &Outcome, usize) -> bool| {
-        settings.iter().filter(|(one, other)| test(one, other, i)).count()
+pub(super) fn outperforms(settings: &[(&Outcome, &Outcome)]) -> (String, Verdict) {
+    let verdicts = [0, 1, 2].map(|i| -> Vec<Verdict> {
+        settings.iter().map(|(one, other)| better(&one.squares(i), &other.squares(i), MANY)).collect()
+    });
+    let count = |wanted: Verdict| {
+        let of = verdicts.each_ref().map(|of| of.iter().filter(|&&verdict| verdict == wanted).count());
+        of.map(|count| count.to_string()).join(", ")
     };
-    let better = [0, 1, 2].map(|i| count(i, Outcome::better));
-    let worse = [0, 1, 2].map(|i| count(i, Outcome::worse));
-    let all = settings.len();
-    let holds = worse == [0; 3] && better.iter().all(|&better| 10 * better >= 9 * all);
-    let [a, b, c] = better;
-    let [d, e, f] = worse;
     let ours = format!(
-        "better in {a}, {b}, {c} of {all} settings (position, velocity, turn rate), worse by more than 3 σ in {d}, {e}, {f}"
+        "better in {} of {} settings (position, velocity, turn rate), worse in {}",
+        count(Verdict::Holds),
+        settings.len(),
+        count(Verdict::Fails)
     );
-    (ours, holds)
+    (ours, all(verdicts.into_iter().flatten()))
 }
 
 /// The runs lost in several outcomes of one method.
@@ -249,7 +232,7 @@ mod tests {
         let methods = [noise_once(1).unwrap(), fixed("averaged", 8).unwrap()];
         let [published, _] = compare(&plan, 24, 6, &methods).unwrap();
         assert_eq!((published[0].lost.count(), published[1].lost.count()), (10, 0));
-        assert!((published[1].errors[0] - 15.4).abs() < 4.0, "{}", published[1].errors[0]);
+        assert!((published[1].errors[0].value - 15.4).abs() < 4.0, "{}", published[1].errors[0]);
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! Linear models with exact moments, and how fast a time update comes near them.
 
-use crate::drawing::axis;
+use crate::drawing::{axis, steps};
+use crate::estimate::bounded;
 use crate::{Claim, Expected, Trouble};
 use givens::filter::predict::{ItoTaylor, TimeUpdate, Variant};
 use givens::filter::{Gaussian, Lskf, Method, SquareRoot};
@@ -146,19 +147,23 @@ pub(super) fn order(points: &[[f64; 2]], floor: f64) -> Option<f64> {
 pub(super) fn claim(what: String, expected: &Expected, name: &str, found: Option<f64>) -> Claim {
     let published = expected.number(&["order", name]).unwrap_or(f64::NAN);
     let found = found.unwrap_or(f64::NAN);
-    let holds = (found - published).abs() <= 0.1;
-    Claim { published: format!("{published}"), ..Claim::statement(what, format!("{found:.3}"), holds) }
+    let verdict = bounded((found - published).abs(), 0.1);
+    Claim { published: format!("{published}"), ..Claim::statement(what, format!("{found:.3}"), verdict) }
 }
 
 /// Errors against steps, both on logarithmic axes.
 pub(super) fn panel(label: &str, heading: &str, lines: &[(&str, Colour, Vec<[f64; 2]>)]) -> Panel {
     // ever narrower, as some of them lie upon each other
-    let marks = lines.iter().zip([5.0, 3.6, 2.2, 1.6]).map(|((name, colour, points), width)| {
-        Mark::new(name, *colour, Shape::Line { points: points.clone(), width, dashed: false })
+    let marks = lines.iter().zip([5.0, 3.6, 2.2, 1.6]).flat_map(|((name, colour, points), width)| {
+        let dots = Shape::Dots { points: points.clone(), radius: 0.5 * width + 1.2, hollow: false };
+        let line = Shape::Line { points: points.clone(), width, dashed: false };
+        [Mark::new(name, *colour, line), Mark::new("", *colour, dots)]
     });
+    let counts = lines.first().map_or(&[][..], |(.., points)| points);
+    let counts: Vec<usize> = counts.iter().map(|point| point[0] as usize).collect();
     Panel {
         heading: heading.to_owned(),
-        x: axis("steps", Scale::Log),
+        x: steps("steps", &counts),
         y: axis(label, Scale::Log),
         marks: marks.collect(),
         ..Panel::default()

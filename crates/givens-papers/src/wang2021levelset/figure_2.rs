@@ -2,6 +2,7 @@
 
 use super::convergence::{Linear, Moments, Stepping, claim, distance, order, panel};
 use crate::drawing::figure;
+use crate::estimate::exactly;
 use crate::page::Table;
 use crate::{Claim, Expected, Page, Plan, Trouble};
 use givens::filter::Gaussian;
@@ -86,17 +87,19 @@ fn statements(errors: &[(&str, Colour, Vec<[f64; 2]>)], last: &[Moments]) -> Vec
                 "its covariance stalls {stalled:.2e} away (the last doubling changes that by {:.1e})",
                 stalled - before
             ),
-            (stalled / before - 1.0).abs() < 0.05 && stalled > 10.0 * error(1, finest),
+            exactly((stalled / before - 1.0).abs() < 0.05 && stalled > 10.0 * error(1, finest)),
         ),
         Claim::statement(
             "the proper Itô–Taylor step and the LSKF-RK2 converge to the same covariance",
             format!("{apart:.1e} apart at {} steps", STEPS[finest]),
-            apart <= error(1, finest) + error(2, finest) && error(1, finest) < 1e-2 * stalled.max(1e-300),
+            exactly(
+                apart <= error(1, finest) + error(2, finest) && error(1, finest) < 1e-2 * stalled.max(1e-300),
+            ),
         ),
         Claim::statement(
             "the LSKF-RK4 reaches the error of the proper Itô–Taylor step with much fewer steps",
             format!("{fewest} in place of {}", STEPS[finest]),
-            (1..=4).contains(&fewest),
+            exactly((1..=4).contains(&fewest)),
         ),
     ]
 }

@@ -1,7 +1,7 @@
 //! A row of panels for each turn rate, a column for each error and one for the runs lost.
 
 use super::comparison::{OF, Outcome, RATES};
-use crate::drawing::axis;
+use crate::drawing::{axis, panel};
 use givens_io::figure::{Axis, Block, Colour, Figure, Grid, Mark, Panel, Scale, Shape};
 
 /// One method's curve: its name, colour, and whether dashed.
@@ -18,10 +18,10 @@ pub(super) fn drawn(
     let mut cells = Vec::new();
     for (rate, curves) in RATES.iter().zip(curves) {
         for (i, of) in OF.iter().enumerate() {
-            let marks = marks(styles, curves, |outcome| outcome.errors[i]);
+            let marks = marks(styles, curves, |outcome| outcome.errors[i].value);
             let heading = format!("ω₀ = {rate}°/s");
             let y = Axis { padding: 0.08, ..axis(&format!("RMSE of {of}"), Scale::Log) };
-            cells.push(Some(Panel { heading, x: x.clone(), y, marks, ..Panel::default() }));
+            cells.push(Some(panel(&heading, x.clone(), y, marks)));
         }
         let share = |outcome: &Outcome| 100.0 * outcome.lost.count() as f64 / outcome.runs as f64;
         let y = Axis { range: Some([-3.0, 103.0]), ..axis("diverged, % of runs", Scale::Linear) };
@@ -31,7 +31,7 @@ pub(super) fn drawn(
     let body = Block::Grid(Grid { columns: vec![1.0; 4], rows: vec![1.0; RATES.len()], cells });
     Figure {
         title: title.to_owned(),
-        notes: vec![note.to_owned()],
+        notes: vec![format!("{note}. Where a method lost every run it has no point.")],
         key: true,
         body,
         width: 1400.0,

@@ -1,7 +1,9 @@
-//! The project's chores: `cargo xtask tidy` checks what the compiler does not, `cargo xtask ci` runs all that CI runs.
+//! The project's chores: `cargo xtask tidy` checks what the compiler does not, `cargo xtask ci` runs all that CI runs,
+//! `cargo xtask reproduction` puts the papers' tables into their page.
 
 mod ci;
 mod finding;
+mod reproduction;
 mod rust_text;
 mod step;
 mod tidy;
@@ -13,7 +15,9 @@ use std::process::ExitCode;
 
 const USAGE: &str = "usage:
   cargo xtask tidy    check order of modules and crates, lengths, citations, the registry and the README
-  cargo xtask ci      everything that CI runs: format, tidy, lints, documentation, builds, tests";
+  cargo xtask ci      everything that CI runs: format, tidy, lints, documentation, builds, tests
+  cargo xtask reproduction PAGES
+                      puts the index of a folder that `givens reproduce` wrote into docs/reproduction.md";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -21,6 +25,7 @@ fn main() -> ExitCode {
     let done = match words.as_slice() {
         ["tidy"] => tidy::run(&root()),
         ["ci"] => ci::run(&root()),
+        ["reproduction", pages] => reproduction::run(&root(), Path::new(pages)),
         _ => {
             say(USAGE);
             return ExitCode::from(2);

@@ -214,8 +214,9 @@ pub fn index(pages: &[(&Paper, &Experiment, String)]) -> File {
         }
         if let Some(at) = page.find(HEAD) {
             text += "\n";
-            let rows = page[at..].lines().take_while(|line| line.starts_with('|'));
-            rows.for_each(|row| text += &format!("{row}\n"));
+            for row in page[at..].lines().take_while(|line| line.starts_with('|')) {
+                let _ = writeln!(text, "{row}");
+            }
         }
     }
     File { path: "index.md".to_owned(), contents: text.into_bytes() }

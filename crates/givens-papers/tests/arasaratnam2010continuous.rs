@@ -30,7 +30,7 @@ fn at_three_degrees_and_two_seconds_it_keeps_its_runs() {
 #[test]
 fn the_operations_are_counted_without_a_random_number() {
     let table = PAPER.experiments.iter().find(|experiment| experiment.name == "table-5").unwrap();
-    let page = (table.run)(&Plan { runs: None, seed: 1, progress: &Quiet }).unwrap();
+    let page = table.run(&Plan { runs: None, seed: 1, progress: &Quiet }).unwrap();
     assert_eq!(page.tables[0].rows.len(), 3);
     assert!(page.claims.len() == 2);
 }

@@ -2,7 +2,7 @@
 
 use super::gallery::{self, Noise};
 use super::track::{NisSeries, StateSeries, Track, TrackFigure};
-use super::{Block, Figure, FigureError, Grid, Panel, png, svg, write};
+use super::{Axis, Block, Colour, Figure, FigureError, Grid, Mark, Panel, Scale, Shape, png, svg, write};
 
 fn without_truth(mut track: Track) -> Track {
     track.states.iter_mut().for_each(|s| s.truth = None);
@@ -186,4 +186,23 @@ fn labels_are_escaped_and_cannot_break_the_document() {
     let document = roxmltree::Document::parse(&text).unwrap();
     let title = document.descendants().find(|n| n.has_tag_name("title")).and_then(|n| n.text());
     assert_eq!(title, Some("a < b & \"c\" \u{fffd} \u{fffd} 漢字 '"));
+}
+
+#[test]
+fn an_axis_is_ticked_where_it_asks_to_be_as_far_as_there_is_room() {
+    let of = |width: f64| {
+        let ticks = (0..7).map(|k| (f64::from(1 << k), format!("{}", 1 << k))).collect();
+        let x = Axis { scale: Scale::Log, ticks, ..Axis::default() };
+        let points = vec![[1.0, 3.0], [64.0, 5.0]];
+        let marks = vec![Mark::new("", Colour::BLUE, Shape::Line { points, width: 1.0, dashed: false })];
+        let cells = vec![Some(Panel { x, marks, ..Panel::default() })];
+        let body = Block::Grid(Grid { columns: vec![1.0], rows: vec![1.0], cells });
+        let figure = Figure { title: String::new(), notes: vec![], key: false, body, width, height: 200.0 };
+        let text = svg(&figure);
+        ["1", "2", "4", "8", "16", "32", "64"].map(|tick| text.contains(&format!(">{tick}</text>")))
+    };
+    assert_eq!(of(400.0), [true; 7]);
+    // nothing between 1 and 64 that was not asked for, and only some of it
+    let narrow = of(240.0).iter().filter(|&&shown| shown).count();
+    assert!((2..=7).contains(&narrow), "{narrow}");
 }

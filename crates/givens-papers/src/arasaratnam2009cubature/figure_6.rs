@@ -63,7 +63,7 @@ fn statements(all: &[Scores]) -> Vec<Claim> {
         grows(CDKF),
         grows(CKF),
         Claim::statement("for all variances the CKF is superior to the CDKF", worse, inferior)
-            .remark("the paper's own Fig. 6 gives p = 1 at a variance of 0.01 to the CDKF"),
+            .explained("the paper's own Fig. 6 gives p = 1 at a variance of 0.01 to the CDKF"),
         Claim::statement("the CDKF deviates the more from the CKF, the wider the prior", gaps, widens),
     ]
 }

@@ -6,6 +6,7 @@ use crate::estimate::{MANY, all as judged};
 use crate::page::Table;
 use crate::statistics::mean_of;
 use crate::{Estimate, Failures, Plan, Trouble, Verdict};
+use core::fmt::Write as _;
 use givens::rule::{CentralDifference, Cubature3, Taylor, Unscented};
 use givens::simulate::Stream;
 use givens_io::figure::{Axis, Mark, Panel, Shape};
@@ -93,7 +94,9 @@ pub(super) fn scores(plan: &Plan, settings: &[Setting]) -> Result<Vec<Scores>, T
                     _ if !divergence.is_finite() => Some("not a number"),
                     _ => None,
                 };
-                wrong.into_iter().for_each(|kind| failures.note_kind(kind));
+                if let Some(kind) = wrong {
+                    failures.note_kind(kind);
+                }
                 scores.divergences[power][rule].push(wrong.is_none().then_some(divergence));
             }
         }
@@ -193,7 +196,7 @@ pub(super) fn inferior(all: &[Scores], name: impl Fn(&Setting) -> String) -> (St
     // where runs are few, all are undecided, and no list says more
     for (word, list) in [("the lower", above), ("undecided", open)] {
         if !list.is_empty() && list.len() < 10 {
-            ours += &format!("; {word} at {}", list.join(", "));
+            let _ = write!(ours, "; {word} at {}", list.join(", "));
         }
     }
     (ours, judged(verdicts))

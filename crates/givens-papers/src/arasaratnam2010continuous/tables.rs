@@ -53,8 +53,18 @@ fn rows() -> impl Iterator<Item = (usize, usize, usize, usize)> {
 }
 
 fn lost(cells: &Cells) -> Table {
-    let columns =
-        ["reading", "filter", "m", "runs", "lost_omega_3", "±", "lost_omega_4.5", "±", "lost_omega_6", "±"];
+    let columns = [
+        "reading",
+        "filter",
+        "m",
+        "runs",
+        "lost_omega_3",
+        "lost_omega_3_error",
+        "lost_omega_4.5",
+        "lost_omega_4.5_error",
+        "lost_omega_6",
+        "lost_omega_6_error",
+    ];
     let mut table = Table::new("lost", &columns);
     for (r, method, s, steps) in rows() {
         let runs = cells.get(r, 0, method, s).squares.len();
@@ -69,8 +79,18 @@ fn lost(cells: &Cells) -> Table {
 }
 
 fn errors(cells: &Cells) -> Table {
-    let columns =
-        ["reading", "filter", "m", "omega", "position_m", "±", "velocity_m_s", "±", "rate_deg_s", "±"];
+    let columns = [
+        "reading",
+        "filter",
+        "m",
+        "omega",
+        "position_m",
+        "position_m_error",
+        "velocity_m_s",
+        "velocity_m_s_error",
+        "rate_deg_s",
+        "rate_deg_s_error",
+    ];
     let mut table = Table::new("errors", &columns);
     for (r, method, s, steps) in rows() {
         for (i, omega) in OMEGAS.into_iter().enumerate() {

@@ -30,7 +30,7 @@ fn page(plan: &Plan, interval: f64, expected: &Expected) -> Result<(Cells, Page)
              by more than 1000 m in position; the CD-EKF's runs only when it fails, as in print (`strayed` counts those that \
              erred and went on), and it is run without any test of its covariance. All filters are in covariance form. \
              `rmse_m` is the root of the mean squared error in position over the scans and the runs that neither failed nor \
-             strayed, alike for all filters; `with_strayed_m` has in it all that did not fail; ± is the standard error. Where \
+             strayed, alike for all filters; `with_strayed_m` has in it all that did not fail; `_error` is the standard error. Where \
              a filter lost every run it has no point."
         ),
         ..Page::default()
@@ -41,12 +41,12 @@ fn page(plan: &Plan, interval: f64, expected: &Expected) -> Result<(Cells, Page)
         "published",
         "lost",
         "lost_percent",
-        "±",
+        "lost_percent_error",
         "strayed",
         "rmse_m",
-        "±",
+        "rmse_m_error",
         "with_strayed_m",
-        "±",
+        "with_strayed_m_error",
     ];
     let mut table = Table::new("divergences", &columns);
     for (method, cells) in METHODS.iter().zip(&cells) {

@@ -18,6 +18,9 @@ pub(super) const RATES: [u32; 3] = [6, 12, 24];
 /// What errors are of.
 pub(super) const OF: [&str; 3] = ["position, m", "velocity, m/s", "turn rate, rad/s"];
 
+/// Their standard deviations.
+const SPREADS: [&str; 3] = ["spread of position", "spread of velocity", "spread of turn rate"];
+
 /// Where the filters begin.
 pub(super) const STARTS: [(&str, &str); 2] = [
     ("published", "every filter starts at the true state, as published"),
@@ -186,7 +189,7 @@ pub(super) fn losses<'o>(outcomes: impl IntoIterator<Item = &'o Outcome>) -> Fai
 
 /// A table of outcomes, after columns of its own.
 pub(super) fn table(name: &'static str, own: &[&str]) -> Table {
-    let errors = OF.iter().flat_map(|&of| [of, "spread"]);
+    let errors = OF.iter().zip(SPREADS).flat_map(|(&of, spread)| [of, spread]);
     let columns: Vec<&str> = own.iter().copied().chain(errors).chain(["lost", "how"]).collect();
     Table::new(name, &columns)
 }

@@ -63,7 +63,7 @@ impl core::fmt::Display for Estimate {
 }
 
 pub(crate) const NEAR: &str = "within the spread of so many runs";
-pub(crate) const FEW: &str = "fewer than 10 runs tell no spread";
+pub(crate) const FEW: &str = "fewer than 10 runs to tell a spread from";
 pub(crate) const NOTHING: &str = "nothing to compare";
 
 /// Whether more than `rate` of the runs are hits, by the exact binomial distribution.

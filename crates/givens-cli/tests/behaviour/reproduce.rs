@@ -122,7 +122,11 @@ fn of_one_run_or_two_nothing_is_concluded_and_no_page_says_nan() {
                 ["differs", "does not hold", "within ("].map(|word| run.stdout.matches(word).count());
             // the legend has the first two once
             assert_eq!(judged, [1, 1, 0], "{}", run.stdout);
-            assert!(run.stdout.contains("undecided: fewer than 10 runs tell no spread"), "{}", run.stdout);
+            assert!(
+                run.stdout.contains("undecided: fewer than 10 runs to tell a spread from"),
+                "{}",
+                run.stdout
+            );
         }
     }
 }

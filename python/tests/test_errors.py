@@ -379,6 +379,19 @@ CASES = [
         "row 3, t = 5.5: a gap of 2.5 is not a whole number of steps of 1\n  help: put the rows on whole steps, or write the transition in `dt` and leave `step` out",
     ),
     (
+        lambda: gv.filter(
+            gv.Transition(lambda t, dt, x: x, noise_cov=np.eye(2), state=S, step=0.5),
+            LENGTH, [0, 1e300], Z[:2], prior=PRIOR,
+        ),
+        gv.InputError,
+        "row 1, t = 1e300: a gap of 1e300 is not a whole number of steps of 0.5\n  help: put the rows on whole steps, or write the transition in `dt` and leave `step` out",
+    ),
+    (
+        lambda: gv.simulate(MODEL, LENGTH, T, prior=PRIOR, seed=1, runs=4_000_000_000),
+        gv.InputError,
+        "`runs` is 4000000000: they need 4.416e12 bytes at once, more than there is memory for\n  help: draw fewer at a time, each time with another seed",
+    ),
+    (
         lambda: gv.filter(MODEL, LENGTH, T, np.where(T[:, None] == 2, np.inf, Z), prior=PRIOR),
         gv.InputError,
         "row 3: measure `length` is infinite\n  help: a missing component is NaN",

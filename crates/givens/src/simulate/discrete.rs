@@ -2,6 +2,7 @@
 
 use super::Stream;
 use super::rows::{Moves, finite, healthy};
+use crate::filter::predict::{OneTransition, Plan, TimeUpdate};
 use crate::filter::{Fault, Matrix, Quantity};
 use crate::model::{At, Transition};
 
@@ -35,15 +36,9 @@ impl<M: Transition> Moves for Discrete<'_, M> {
         x: &mut [f64],
         stream: &mut Stream,
     ) -> Result<(), Fault> {
-        let (model, gap) = (self.model, to - from);
-        let (count, dt) = match model.period() {
-            Some(period) => (gap / period, period),
-            None => (if gap > 0.0 { 1.0 } else { 0.0 }, gap),
-        };
-        if (count - count.round()).abs() > 1e-6 + 4.0 * f64::EPSILON * to.abs() / dt {
-            return Err(Fault::NotWholeSteps { gap, period: dt });
-        }
-        for k in 0..count.round() as usize {
+        let model = self.model;
+        let Plan { count, dt } = OneTransition.plan(model, from, to)?;
+        for k in 0..count {
             let at = At { t: from + k as f64 * dt, dt, u, p: model.parameters() };
             model.transition(&at, x, &mut self.next);
             healthy(model.noise_root(&at, &mut self.s_q), Matrix::ProcessNoise)?;

@@ -12,9 +12,9 @@ pub struct Estimate {
     pub error: f64,
 }
 
-/// So many standard errors decide a single comparison.
+/// So many standard errors decide one comparison, or each of up to six.
 pub(crate) const ONE: f64 = 2.0;
-/// So many decide each of several.
+/// So many decide each of more.
 pub(crate) const MANY: f64 = 3.0;
 
 impl Estimate {

@@ -225,7 +225,7 @@ pub fn index(pages: &[(&Paper, &Experiment, String)]) -> File {
 const LEGEND: &str = "Ours stand with the standard deviation of one replication of the size that was run. *Within*: the \
 published number and ours are no further apart than 3 standard deviations of the difference of two such samples (for \
 counts: by Fisher's exact test); *differs*: they are. A statement *holds* or *does not hold* if what decides it lies further \
-than 2 standard errors from its bound, 3 where several are compared; else it is *undecided*. Errors are compared on the runs \
+than 2 standard errors from its bound, 3 where many are compared; else it is *undecided*. Errors are compared on the runs \
 that both methods kept, losses on those that one of them lost alone.";
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ use super::comparison::{
 };
 use super::grid::{Style, drawn};
 use crate::drawing::axis;
-use crate::estimate::{ONE, all};
+use crate::estimate::{MANY, all};
 use crate::{Claim, Estimate, Expected, Page, Plan, Trouble};
 use givens_io::figure::{Axis, Colour, Scale};
 
@@ -125,10 +125,10 @@ fn gaps(outcomes: &[Vec<Vec<Outcome>>]) -> Claim {
     };
     let ours = [0, 3, 5, 6]
         .map(|k| format!("{} s: {} in position, {} in velocity", k + 1, shown(k, 0), shown(k, 1)));
-    let similar = |i: usize| gap(0, i).into_iter().map(|ratio| ratio.below(1.05, ONE)).collect::<Vec<_>>();
+    let similar = |i: usize| gap(0, i).into_iter().map(|ratio| ratio.below(1.05, MANY)).collect::<Vec<_>>();
     let larger = |i: usize| {
         let ends = gap(6, i).into_iter().zip(gap(0, i));
-        ends.map(|(last, first)| last.less(first).above(0.0, ONE)).collect::<Vec<_>>()
+        ends.map(|(last, first)| last.less(first).above(0.0, MANY)).collect::<Vec<_>>()
     };
     Claim::statement(
         "the difference is larger where T is large, and the results are similar at T = 1 s (judged: larger at 7 s than at 1 s, \

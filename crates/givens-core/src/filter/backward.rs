@@ -58,3 +58,16 @@ pub(crate) fn multiply<T: Real>(c: &mut [T], n: usize, a: &[T], b: &[T]) {
         }
     }
 }
+
+/// C = A B, all n × n, A lower triangular.
+#[inline(always)]
+pub(crate) fn multiply_lower<T: Real>(c: &mut [T], n: usize, a: &[T], b: &[T]) {
+    for (i, (to, row)) in c.chunks_exact_mut(n).zip(a.chunks_exact(n)).enumerate() {
+        to.fill(T::zero());
+        for (&x, from) in row[..=i].iter().zip(b.chunks_exact(n)) {
+            for (sum, &y) in to.iter_mut().zip(from) {
+                *sum = x.mul_add(y, *sum);
+            }
+        }
+    }
+}

@@ -2,7 +2,7 @@
 
 use super::back::symmetrise;
 use super::history::{OTHER_FORM, UNFOLLOWED, for_smoothing};
-use crate::filter::backward::multiply;
+use crate::filter::backward::{multiply, multiply_lower};
 use crate::filter::lanes::lanes;
 use crate::filter::memory::{put_columns, take};
 use crate::filter::{Fault, Filter, Form, Grow, Learnt, Matrix, Over, StepError};
@@ -173,14 +173,13 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> FixedPoint<T, B> {
             follow(shift, parts.chain, learnt);
             parts.mean.copy_from_slice(parts.anchor_mean);
             follow(parts.mean, parts.anchor, shift);
-            // the root of the state: S_j [Γ  chain turn]
+            // the root of the state: S_j Tria([Γ  chain turn])
             multiply(parts.product, n, parts.chain, turn);
-            multiply(parts.cov, n, parts.anchor, parts.product);
-            multiply(parts.product, n, parts.anchor, parts.conditional);
-            put_columns(parts.wide, 2 * n, 0, parts.product, n);
-            put_columns(parts.wide, 2 * n, n, parts.cov, n);
+            put_columns(parts.wide, 2 * n, 0, parts.conditional, n);
+            put_columns(parts.wide, 2 * n, n, parts.product, n);
             let _ = tria(parts.wide, n, 2 * n, 2 * n);
-            copy_lower(parts.factor, n, parts.wide, 2 * n);
+            copy_lower(parts.product, n, parts.wide, 2 * n);
+            multiply_lower(parts.factor, n, parts.anchor, parts.product);
             square(parts.cov, n, parts.factor, n, n);
             return Ok(());
         }

@@ -1,6 +1,6 @@
 //! One step back in square-root form, in the coordinates of the roots (docs/algorithms.md S2–S5).
 
-use crate::filter::backward::multiply;
+use crate::filter::backward::{multiply, multiply_lower};
 use crate::filter::memory::{put_columns, take};
 use crate::filter::{Belief, Learnt};
 use crate::kernels::{copy_lower, tria};
@@ -94,6 +94,6 @@ impl<'a, T: Real> Coordinates<'a, T> {
     /// mˢ, and Sˢ = S times the root.
     pub fn write(&self, record: &Rotated<T>, belief: &mut Belief<T>) {
         self.write_mean(record, belief.mean);
-        multiply(belief.factor, belief.mean.len(), record.factor, self.root);
+        multiply_lower(belief.factor, belief.mean.len(), record.factor, self.root);
     }
 }

@@ -120,32 +120,45 @@ pub fn least_squares(problem: &Problem) -> Vec<Moments> {
     (1..=count).map(|k| pick(&mean, &cov, k, n)).collect()
 }
 
-/// All states at once as a linear map A of white noise ξ, which the measurements of the first `until` rows then tell about:
-/// least squares of [B; I] ξ = [whitened z; 0] by QR. Any covariance may be singular but that of the measurements. The
-/// states at times 0, 1, …
+/// The states at times 0, 1, … given the first `until` rows; any covariance may be singular but that of the measurements.
 #[must_use]
 pub fn conditioned(problem: &Problem, until: usize) -> Vec<Moments> {
-    let (n, count) = (problem.mean.len(), problem.z.len());
-    let (f, size) = (&problem.model.f, n * (count + 1));
+    let step = (problem.model.f.clone(), problem.model.q.clone());
+    let (n, prior) = (problem.mean.len(), (DVector::from_vec(problem.mean.clone()), problem.cov.clone()));
+    let (mean, cov) = jointly(&prior, &vec![step; problem.z.len()], &problem.sensor, &problem.z[..until]);
+    (0..=problem.z.len()).map(|k| pick(&mean, &cov, k, n)).collect()
+}
+
+/// All states at once, the initial one and that after each of the `steps`, as a linear map A of white noise ξ, which the
+/// measurements `z` after the first of them then tell about: least squares of [B; I] ξ = [whitened z; 0] by QR.
+#[must_use]
+pub fn jointly(
+    prior: &Moments,
+    steps: &[(DMatrix<f64>, DMatrix<f64>)],
+    sensor: &Sensor,
+    z: &[Vec<f64>],
+) -> Moments {
+    let (n, count) = (prior.0.len(), steps.len());
+    let size = n * (count + 1);
     let (mut mean, mut a) = (DVector::zeros(size), DMatrix::zeros(size, size));
-    mean.rows_mut(0, n).copy_from_slice(&problem.mean);
-    a.view_mut((0, 0), (n, n)).copy_from(&root(&problem.cov));
-    for k in 1..=count {
+    mean.rows_mut(0, n).copy_from(&prior.0);
+    a.view_mut((0, 0), (n, n)).copy_from(&root(&prior.1));
+    for (k, (f, q)) in (1..).zip(steps) {
         let next = f * mean.rows(n * (k - 1), n);
         mean.rows_mut(n * k, n).copy_from(&next);
         let next = f * a.rows(n * (k - 1), n);
         a.rows_mut(n * k, n).copy_from(&next);
-        a.view_mut((n * k, n * k), (n, n)).copy_from(&root(&problem.model.q));
+        a.view_mut((n * k, n * k), (n, n)).copy_from(&root(q));
     }
     let (mut rows, mut target) = (DMatrix::zeros(0, size), DVector::zeros(0));
-    for k in 0..until {
-        let (h, r, z) = measured(&problem.sensor, &problem.z[k]);
+    for (k, z) in (1..).zip(z) {
+        let (h, r, z) = measured(sensor, z);
         let at = rows.nrows();
         rows = rows.insert_rows(at, z.len(), 0.0);
         target = target.insert_rows(at, z.len(), 0.0);
         let white = white(&r);
-        rows.rows_mut(at, z.len()).copy_from(&(&white * &h * a.rows(n * (k + 1), n)));
-        target.rows_mut(at, z.len()).copy_from(&(white * (z - h * mean.rows(n * (k + 1), n))));
+        rows.rows_mut(at, z.len()).copy_from(&(&white * &h * a.rows(n * k, n)));
+        target.rows_mut(at, z.len()).copy_from(&(white * (z - h * mean.rows(n * k, n))));
     }
     let at = rows.nrows();
     rows = rows.insert_rows(at, size, 0.0);
@@ -156,7 +169,7 @@ pub fn conditioned(problem: &Problem, until: usize) -> Vec<Moments> {
     mean += &a * upper.solve_upper_triangular(&x).unwrap();
     let factor = a * upper.solve_upper_triangular(&DMatrix::identity(size, size)).unwrap();
     let cov = &factor * factor.transpose();
-    (0..=count).map(|k| pick(&mean, &cov, k, n)).collect()
+    (mean, cov)
 }
 
 /// Any root of a covariance that may be singular.

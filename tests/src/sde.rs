@@ -1,7 +1,7 @@
 //! Random continuous models and data at irregular times: linear ones, whose answers follow from a matrix exponential, and
 //! mildly nonlinear ones.
 
-use crate::exact::{Answer, kalman_over};
+use crate::exact::{Answer, Moments, kalman_over};
 use crate::models::{Normals, Sensor, row};
 use givens::filter::Gaussian;
 use givens::model::{At, Sde, Varies};
@@ -126,12 +126,22 @@ impl Continuous {
     /// What the linear problem's filter and smoother should find.
     #[must_use]
     pub fn exact(&self) -> Answer {
+        kalman_over(self.moments(), &self.steps(), &self.sensor, &self.z)
+    }
+
+    /// The initial belief as moments.
+    #[must_use]
+    pub fn moments(&self) -> Moments {
+        (DVector::from_vec(self.mean.clone()), self.cov.clone())
+    }
+
+    /// F and Q of the linear problem over the gap before each row.
+    #[must_use]
+    pub fn steps(&self) -> Vec<(DMatrix<f64>, DMatrix<f64>)> {
         assert_eq!(self.model.bend, 0.0);
         let before = [0.0].iter().chain(&self.times);
         let gaps = self.times.iter().zip(before).map(|(t, before)| t - before);
-        let steps: Vec<_> = gaps.map(|gap| discretised(&self.model.a, &self.model.g, gap)).collect();
-        let prior = (DVector::from_vec(self.mean.clone()), self.cov.clone());
-        kalman_over(prior, &steps, &self.sensor, &self.z)
+        gaps.map(|gap| discretised(&self.model.a, &self.model.g, gap)).collect()
     }
 }
 

@@ -42,6 +42,30 @@ impl Estimates {
         Self { states, measures, smoothed, ..Self::default() }
     }
 
+    /// Makes room for so many more rows, if there is that much memory.
+    pub(crate) fn reserve(&mut self, rows: usize) {
+        let (n, d) = (self.states, self.measures);
+        let room = |of: &mut Vec<f64>, len: usize| {
+            let _ = of.try_reserve_exact(rows.saturating_mul(len));
+        };
+        for of in [&mut self.time, &mut self.nis, &mut self.log_likelihood] {
+            room(of, 1);
+        }
+        for of in [&mut self.mean, &mut self.predicted_mean] {
+            room(of, n);
+        }
+        for of in [&mut self.cov, &mut self.factor, &mut self.predicted_cov] {
+            room(of, n * n);
+        }
+        if self.smoothed {
+            room(&mut self.filtered_mean, n);
+            room(&mut self.filtered_cov, n * n);
+        }
+        room(&mut self.innovation, d);
+        room(&mut self.innovation_cov, d * d);
+        let _ = self.nis_dof.try_reserve_exact(rows);
+    }
+
     /// Drops what stands behind the first `rows` rows.
     pub(crate) fn truncate(&mut self, rows: usize) {
         let (n, d) = (self.states, self.measures);

@@ -2,8 +2,8 @@
 //! smoothers, in covariance and in square-root form.
 //!
 //! The mathematics is [`givens_core`], re-exported here; this crate adds whole trajectories: [`filter()`] and
-//! [`smooth()`] over [`Data`], their [`Estimates`], [`simulate`](mod@simulate), [`metrics`], and the [`registry`] of all
-//! methods by name.
+//! [`smooth()`] over [`Data`], their [`Estimates`], joint draws by [`sample()`],
+//! [`simulate`](mod@simulate), [`metrics`], and the [`registry`] of all methods by name.
 //!
 //! ```
 //! use givens::filter::{Gaussian, SrCkf};
@@ -33,4 +33,4 @@ pub mod simulate;
 
 pub use data::{Data, DataError, Row};
 pub use estimates::Estimates;
-pub use run::{Failure, Goal, Outcome, filter, run, run_at, smooth};
+pub use run::{Draws, Failure, Goal, Outcome, Samples, filter, run, run_at, sample, smooth};

@@ -7,19 +7,38 @@ use crate::filter::memory::take;
 use crate::filter::{Belief, Filter, Form, Grow, Over, Prior, StepError};
 use crate::kernels::{solve_lower, solve_lower_rows};
 use crate::scalar::{Mask, Real};
+use core::ops::ControlFlow;
+
+/// What a visitor of the way back answers: nothing, or whether to go on.
+pub trait Answer {
+    /// Whether to go on.
+    fn goes_on(self) -> bool;
+}
+
+impl Answer for () {
+    fn goes_on(self) -> bool {
+        true
+    }
+}
+
+impl Answer for ControlFlow<()> {
+    fn goes_on(self) -> bool {
+        self.is_continue()
+    }
+}
 
 impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
     /// Goes back from the filter's present belief over at most `steps` records, the latest first. `visit` is called
     /// with 0 and the present belief, then with 1, 2, … and the smoothed belief that many time updates ago. Nothing
-    /// is forgotten: a fixed-lag smoother calls this at every step.
+    /// is forgotten: a fixed-lag smoother calls this at every step. A `visit` that answers `ControlFlow::Break` ends the way.
     ///
     /// # Errors
     /// A smoothed covariance that is not positive semidefinite, in covariance form; the time is the filter's.
-    pub fn smooth<X: Over<M>, M, C: Grow<T>>(
+    pub fn smooth<X: Over<M>, M, C: Grow<T>, A: Answer>(
         &mut self,
         filter: &Filter<'_, X, M, T, C>,
         steps: usize,
-        visit: impl FnMut(usize, &Smoothed<T>),
+        visit: impl FnMut(usize, &Smoothed<T>) -> A,
     ) -> Result<(), StepError> {
         self.fits(filter)?;
         let (n, (_, mut rest)) = (self.states, self.carve());
@@ -35,12 +54,12 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
     ///
     /// # Errors
     /// As [`smooth`](Self::smooth).
-    pub fn smooth_from<F: Form>(
+    pub fn smooth_from<F: Form, A: Answer>(
         &mut self,
         start: Prior,
         skip: usize,
         steps: usize,
-        visit: impl FnMut(usize, &Smoothed<T>),
+        visit: impl FnMut(usize, &Smoothed<T>) -> A,
     ) -> Result<(), StepError> {
         let room = self.room(start.mean.len(), F::SQUARE_ROOT);
         room.map_err(|fault| StepError { fault, time: start.time, step: 0 })?;
@@ -59,11 +78,11 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
     ///
     /// # Errors
     /// As [`smooth`](Self::smooth).
-    pub fn smooth_on(
+    pub fn smooth_on<A: Answer>(
         &mut self,
         time: f64,
         from: &Smoothed<T>,
-        visit: impl FnMut(usize, &Smoothed<T>),
+        visit: impl FnMut(usize, &Smoothed<T>) -> A,
     ) -> Result<(), StepError> {
         let room = self.room(from.belief.mean.len(), !from.root.is_empty());
         room.map_err(|fault| StepError { fault, time, step: 0 })?;
@@ -79,18 +98,20 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
     ///
     /// # Errors
     /// A filter that does not go with this history.
-    pub fn smooth_means<X: Over<M>, M, C: Grow<T>>(
+    pub fn smooth_means<X: Over<M>, M, C: Grow<T>, A: Answer>(
         &mut self,
         filter: &Filter<'_, X, M, T, C>,
         steps: usize,
-        mut visit: impl FnMut(usize, &[T]),
+        mut visit: impl FnMut(usize, &[T]) -> A,
     ) -> Result<(), StepError> {
         self.fits(filter)?;
         let (n, newest, capacity, count) = (self.states, self.oldest + self.count, self.capacity, self.count);
         let (records, mut rest) = self.carve();
         let mean = take(&mut rest, n);
         mean.copy_from_slice(filter.mean());
-        visit(0, mean);
+        if !visit(0, mean).goes_on() {
+            return Ok(());
+        }
         let record = |age: usize| {
             let len = Self::record_len(n);
             &records[(newest - age) % capacity * len..][..len]
@@ -102,24 +123,28 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
                 let record = Rotated::of(record(age), n);
                 coordinates.mean_back(&record, rest);
                 coordinates.write_mean(&record, mean);
-                visit(age, mean);
+                if !visit(age, mean).goes_on() {
+                    return Ok(());
+                }
             }
         } else {
             for age in 1..=steps.min(count) {
                 mean_back(&Passage::of(record(age), &[], n), mean, rest);
-                visit(age, mean);
+                if !visit(age, mean).goes_on() {
+                    return Ok(());
+                }
             }
         }
         Ok(())
     }
 
-    fn go_back(
+    fn go_back<A: Answer>(
         &mut self,
         time: f64,
         (shift, turn): (&[T], &[T]),
         skip: usize,
         steps: usize,
-        mut visit: impl FnMut(usize, &Smoothed<T>),
+        mut visit: impl FnMut(usize, &Smoothed<T>) -> A,
     ) -> Result<(), StepError> {
         let (n, square_root, capacity) = (self.states, self.square_root, self.capacity);
         let held = self.count - skip.min(self.count);
@@ -133,7 +158,9 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
         if square_root {
             let mut coordinates = Coordinates::start(n, &[], &[], &mut rest);
             let mut smoothed = Smoothed { belief, shift: coordinates.mean, root: coordinates.root };
-            visit(0, &smoothed);
+            if !visit(0, &smoothed).goes_on() {
+                return Ok(());
+            }
             if !turn.is_empty() {
                 smoothed.shift.copy_from_slice(shift);
                 smoothed.root.copy_from_slice(turn);
@@ -144,12 +171,16 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
                 coordinates.back(&record, rest);
                 coordinates.write(&record, &mut smoothed.belief);
                 (smoothed.shift, smoothed.root) = (coordinates.mean, coordinates.root);
-                visit(age, &smoothed);
+                if !visit(age, &smoothed).goes_on() {
+                    return Ok(());
+                }
             }
             return Ok(());
         }
         let mut smoothed = Smoothed { belief, shift: &mut [], root: &mut [] };
-        visit(0, &smoothed);
+        if !visit(0, &smoothed).goes_on() {
+            return Ok(());
+        }
         for age in 1..=steps.min(held) {
             let before = if age < held { &record(age + 1)[2 * n + n * n..][..n * n] } else { &[] };
             let passage = Passage::of(record(age), before, n);
@@ -158,7 +189,9 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
                 time,
                 step: newest - age,
             })?;
-            visit(age, &smoothed);
+            if !visit(age, &smoothed).goes_on() {
+                return Ok(());
+            }
         }
         Ok(())
     }
@@ -191,6 +224,6 @@ impl<T: Real> Smoothed<'_, T> {
 }
 
 /// The belief on its way back.
-fn present<'a, T>(n: usize, memory: &mut &'a mut [T]) -> Belief<'a, T> {
+pub(super) fn present<'a, T>(n: usize, memory: &mut &'a mut [T]) -> Belief<'a, T> {
     Belief { mean: take(memory, n), factor: take(memory, n * n), cov: take(memory, n * n), moved: &mut [] }
 }

@@ -9,6 +9,7 @@ mod option;
 mod resolve;
 mod running;
 mod runtime;
+mod sampling;
 mod setting;
 mod time;
 mod words;

@@ -4,14 +4,18 @@ mod between;
 mod goal;
 mod own;
 mod recorder;
+mod sample;
 
 pub use goal::{Goal, Outcome};
 pub(crate) use own::{OwnFilter, Start, scatter, start_own};
+pub use sample::{Draws, Samples, sample};
 
 use crate::filter::{Gaussian, Over, StepError};
 use crate::model::Observation;
 use crate::scalar::Shown;
 use crate::{Data, Estimates, Row};
+use between::Between;
+use recorder::{Recorder, Stop, stopped};
 
 /// A run that stopped in the middle: what it had finished, and why it went no further.
 #[derive(Clone, Debug, PartialEq)]
@@ -109,8 +113,33 @@ pub fn run_at<'a, X: Over<M>, M, H: Observation>(
     goal: Goal,
     at: &[f64],
 ) -> Outcome {
+    run_until(method, model, sensors, rows, t0, prior, goal, at, None)
+        .unwrap_or_else(|| Outcome::new(prior.mean().len(), sensors.measures(), goal))
+}
+
+/// [`run_at`] that is cancelled when `stop` is set: then there is no outcome.
+pub(crate) fn run_until<'a, X: Over<M>, M, H: Observation>(
+    method: X,
+    model: &M,
+    sensors: &H,
+    rows: impl Iterator<Item = Row<'a>> + Clone,
+    t0: f64,
+    prior: &Gaussian,
+    goal: Goal,
+    at: &[f64],
+    stop: Stop,
+) -> Option<Outcome> {
     let mut outcome = Outcome::new(prior.mean().len(), sensors.measures(), goal);
     let wanted = if matches!(goal, Goal::Filter | Goal::Interval) { at } else { &[] };
-    outcome.at = recorder::record(method, model, sensors, rows, t0, prior, &mut outcome, goal, wanted);
-    outcome
+    let out = &outcome.estimates;
+    let between = Between::new(wanted, Estimates::new(out.states(), out.measures(), out.is_smoothed()));
+    let count = if goal == Goal::Filter { 0 } else { rows.clone().count() };
+    match Recorder::start(method, model, sensors, t0, prior, goal, count, between, stop) {
+        Ok(mut recorder) => {
+            recorder.forward(rows, &mut outcome);
+            outcome.at = recorder.finish(&mut outcome);
+        }
+        Err(error) => outcome.failure = Some((0, error)),
+    }
+    if stopped(stop) { None } else { Some(outcome) }
 }

@@ -7,13 +7,15 @@ use crate::filter::{Belief, Form, Gaussian, Method, Over, Prior, StepError};
 use crate::model::Observation;
 use crate::smoother::{FixedPoint, History, Smoothed};
 use crate::{Estimates, Row};
+use core::ops::ControlFlow;
+use core::sync::atomic::{AtomicBool, Ordering};
 
 /// A filter, what it has recorded, and what it is to find out.
 pub(super) struct Recorder<'t, 'm, X: Method, M, H> {
-    filter: OwnFilter<'m, X, M>,
+    pub(super) filter: OwnFilter<'m, X, M>,
     sensors: &'m H,
     goal: Goal,
-    history: History<f64, Vec<f64>>,
+    pub(super) history: History<f64, Vec<f64>>,
     point: Option<FixedPoint<f64, Vec<f64>>>,
     present: Vec<bool>,
     /// The belief after the last finished row: where the way back begins if the next one fails.
@@ -22,6 +24,15 @@ pub(super) struct Recorder<'t, 'm, X: Method, M, H> {
     predicted: bool,
     /// States at other times.
     between: Between<'t>,
+    /// Once it is set, no further row is begun, on neither way.
+    stop: Stop<'t>,
+}
+
+/// What cancels a run when it is set.
+pub(super) type Stop<'t> = Option<&'t AtomicBool>;
+
+pub(super) fn stopped(stop: Stop) -> bool {
+    stop.is_some_and(|stop| stop.load(Ordering::Relaxed))
 }
 
 impl<'t, 'm, X: Over<M>, M, H: Observation> Recorder<'t, 'm, X, M, H> {
@@ -35,6 +46,7 @@ impl<'t, 'm, X: Over<M>, M, H: Observation> Recorder<'t, 'm, X, M, H> {
         goal: Goal,
         rows: usize,
         between: Between<'t>,
+        stop: Stop<'t>,
     ) -> Result<Self, StepError> {
         let filter = start_own(method, model, sensors, Start::Prior(t0, prior), goal != Goal::Filter)?;
         let n = filter.mean().len();
@@ -55,6 +67,7 @@ impl<'t, 'm, X: Over<M>, M, H: Observation> Recorder<'t, 'm, X, M, H> {
             last: (prior.mean().to_vec(), prior.factor().to_vec(), prior.cov().to_vec()),
             predicted: false,
             between,
+            stop,
         };
         recorder.begin_point(t0)?;
         Ok(recorder)
@@ -69,15 +82,35 @@ impl<'t, 'm, X: Over<M>, M, H: Observation> Recorder<'t, 'm, X, M, H> {
         Ok(())
     }
 
+    /// Takes in all rows, up to one that fails, and goes on to the times that are wanted behind the last.
+    pub fn forward<'a>(&mut self, rows: impl Iterator<Item = Row<'a>>, outcome: &mut Outcome) {
+        let (mut before, stop) = (None, self.stop);
+        outcome.estimates.reserve(rows.size_hint().0);
+        for (k, row) in rows.take_while(|_| !stopped(stop)).enumerate() {
+            if let Err(error) = self.row(before, row, &mut outcome.estimates) {
+                outcome.failure = Some((k, error));
+                outcome.failed_at = self.filter.mean().to_vec();
+                break;
+            }
+            before = Some(row);
+        }
+        let out = &mut outcome.estimates;
+        out.truncate(out.len());
+        if outcome.failure.is_none() {
+            let beyond = self.between.ahead(&self.filter, self.sensors, None, out, stop);
+            outcome.failure = beyond.err().map(|error| (out.len().saturating_sub(1), error));
+        }
+    }
+
     /// Takes in one row and writes it to `out`; `before` is the row above it.
-    pub fn row(&mut self, before: Option<Row>, row: Row, out: &mut Estimates) -> Result<(), StepError> {
+    fn row(&mut self, before: Option<Row>, row: Row, out: &mut Estimates) -> Result<(), StepError> {
         self.predicted = false;
         // a control holds from its row to the next, the first one also before
         self.filter.set_controls(before.unwrap_or(row).u)?;
         for (there, z) in self.present.iter_mut().zip(row.z) {
             *there = !z.is_nan();
         }
-        self.between.ahead(&self.filter, self.sensors, Some((row, &self.present)), out)?;
+        self.between.ahead(&self.filter, self.sensors, Some((row, &self.present)), out, self.stop)?;
         match &mut self.point {
             Some(point) => point.predict(&mut self.filter, row.time)?,
             None => self.history.predict(&mut self.filter, row.time)?,
@@ -142,7 +175,7 @@ impl<'t, 'm, X: Over<M>, M, H: Observation> Recorder<'t, 'm, X, M, H> {
     }
 
     /// Goes back over the finished rows.
-    pub fn finish(&mut self, out: &mut Estimates, failed: bool) -> Result<(), StepError> {
+    fn back(&mut self, out: &mut Estimates, failed: bool) -> Result<(), StepError> {
         let Some(last) = out.len().checked_sub(1) else { return Ok(()) };
         let steps = match self.goal {
             Goal::Interval => last,
@@ -150,20 +183,35 @@ impl<'t, 'm, X: Over<M>, M, H: Observation> Recorder<'t, 'm, X, M, H> {
             Goal::Filter | Goal::Point(_) => return Ok(()),
         };
         let time = out.time[last];
-        let (mut wrong, between) = (None, &mut self.between);
+        let (mut wrong, between, stop) = (None, &mut self.between, self.stop);
         let put = |age: usize, smoothed: &Smoothed<f64>| {
             let row = last - age;
             put::<X::Form>(out, row, &smoothed.belief);
             let filtered = (out.filtered_mean(row), out.filtered_cov(row));
             wrong = wrong.or(between.back::<X::Form>(row, out.time[row], smoothed, filtered).err());
+            if stopped(stop) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         };
         let start = Prior { time, mean: &self.last.0, factor: &self.last.1, cov: &self.last.2 };
         if failed {
-            self.history.smooth_from::<X::Form>(start, usize::from(self.predicted), steps, put)?;
+            self.history.smooth_from::<X::Form, _>(start, usize::from(self.predicted), steps, put)?;
         } else {
             self.history.smooth(&self.filter, steps, put)?;
         }
         wrong.map_or(Ok(()), Err)
+    }
+
+    /// Goes back, and gives the states at the wanted times.
+    pub fn finish(mut self, outcome: &mut Outcome) -> Estimates {
+        let out = &mut outcome.estimates;
+        if let Err(error) = self.back(out, outcome.failure.is_some()) {
+            // a smoothed covariance that does not exist: the filtered rows are no answer to the question. The record that
+            // failed leads from its row, counted from one less, to the next
+            let row = error.step.saturating_sub(1).min(out.len().saturating_sub(1));
+            let time = out.time.get(row).copied().unwrap_or(error.time);
+            outcome.failure.get_or_insert((row, StepError { time, ..error }));
+            out.truncate(0);
+        }
+        self.between.finish(out, outcome.failure.is_some())
     }
 }
 
@@ -186,53 +234,4 @@ pub(super) fn put<F: Form>(out: &mut Estimates, row: usize, belief: &Belief<f64>
     } else {
         cov.copy_from_slice(belief.cov);
     }
-}
-
-/// Runs over all rows, and gives the states at the times `at`, in increasing order; a failure ends the run after the rows
-/// before it have been smoothed among themselves.
-pub(super) fn record<'a, X: Over<M>, M, H: Observation>(
-    method: X,
-    model: &M,
-    sensors: &H,
-    rows: impl Iterator<Item = Row<'a>> + Clone,
-    t0: f64,
-    prior: &Gaussian,
-    outcome: &mut Outcome,
-    goal: Goal,
-    at: &[f64],
-) -> Estimates {
-    let out = &mut outcome.estimates;
-    let count = if goal == Goal::Filter { 0 } else { rows.clone().count() };
-    let empty = Estimates::new(out.states, out.measures, out.smoothed);
-    let between = Between::new(at, empty);
-    let mut recorder = match Recorder::start(method, model, sensors, t0, prior, goal, count, between) {
-        Ok(recorder) => recorder,
-        Err(error) => {
-            outcome.failure = Some((0, error));
-            return Estimates::default();
-        }
-    };
-    let mut before = None;
-    for (k, row) in rows.enumerate() {
-        if let Err(error) = recorder.row(before, row, out) {
-            outcome.failure = Some((k, error));
-            outcome.failed_at = recorder.filter.mean().to_vec();
-            break;
-        }
-        before = Some(row);
-    }
-    out.truncate(out.len());
-    if outcome.failure.is_none() {
-        let beyond = recorder.between.ahead(&recorder.filter, sensors, None, out);
-        outcome.failure = beyond.err().map(|error| (out.len().saturating_sub(1), error));
-    }
-    if let Err(error) = recorder.finish(out, outcome.failure.is_some()) {
-        // a smoothed covariance that does not exist: the filtered rows are no answer to the question. The record that
-        // failed leads from its row, counted from one less, to the next
-        let row = error.step.saturating_sub(1).min(out.len().saturating_sub(1));
-        let time = out.time.get(row).copied().unwrap_or(error.time);
-        outcome.failure.get_or_insert((row, StepError { time, ..error }));
-        out.truncate(0);
-    }
-    recorder.between.finish(out, outcome.failure.is_some())
 }

@@ -24,6 +24,14 @@ impl Stream {
         Self(rng)
     }
 
+    /// The same stream in a part of it that [`new`](Self::new) never comes to: states are drawn from it that must not share
+    /// the noise of a simulation with the same key.
+    pub(crate) fn beyond(seed: u64, track: u32, run: u32) -> Self {
+        let mut stream = Self::new(seed, track, run);
+        stream.0.set_word_pos(1 << 60);
+        stream
+    }
+
     /// The next number.
     pub fn normal(&mut self) -> f64 {
         StandardNormal.sample(&mut self.0)

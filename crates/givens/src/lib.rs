@@ -2,7 +2,7 @@
 //! smoothers, in covariance and in square-root form.
 //!
 //! The mathematics is [`givens_core`], re-exported here; this crate adds whole trajectories: [`filter()`] and
-//! [`smooth()`] over [`Data`], their [`Estimates`], joint draws by [`sample()`],
+//! [`smooth()`] over [`Data`], their [`Estimates`], joint draws by [`sample()`], many tracks at once by [`batch`],
 //! [`simulate`](mod@simulate), [`metrics`], and the [`registry`] of all methods by name.
 //!
 //! ```
@@ -23,6 +23,7 @@
 
 pub use givens_core::{filter, kernels, model, ode, rule, scalar, smoother};
 
+pub mod batch;
 mod data;
 mod estimates;
 pub mod explain;

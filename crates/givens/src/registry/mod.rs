@@ -1,6 +1,7 @@
 //! All methods by name: the one list that drives the contract tests, the command and Python.
 
 mod any_filter;
+mod batches;
 mod begin;
 mod choice;
 mod dispatch;

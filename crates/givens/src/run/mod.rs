@@ -8,6 +8,7 @@ mod sample;
 
 pub use goal::{Goal, Outcome};
 pub(crate) use own::{OwnFilter, Start, scatter, start_own};
+pub(crate) use recorder::{Stop, stopped};
 pub use sample::{Draws, Samples, sample};
 
 use crate::filter::{Gaussian, Over, StepError};
@@ -15,7 +16,7 @@ use crate::model::Observation;
 use crate::scalar::Shown;
 use crate::{Data, Estimates, Row};
 use between::Between;
-use recorder::{Recorder, Stop, stopped};
+use recorder::Recorder;
 
 /// A run that stopped in the middle: what it had finished, and why it went no further.
 #[derive(Clone, Debug, PartialEq)]

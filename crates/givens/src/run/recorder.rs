@@ -29,9 +29,9 @@ pub(super) struct Recorder<'t, 'm, X: Method, M, H> {
 }
 
 /// What cancels a run when it is set.
-pub(super) type Stop<'t> = Option<&'t AtomicBool>;
+pub(crate) type Stop<'t> = Option<&'t AtomicBool>;
 
-pub(super) fn stopped(stop: Stop) -> bool {
+pub(crate) fn stopped(stop: Stop) -> bool {
     stop.is_some_and(|stop| stop.load(Ordering::Relaxed))
 }
 

@@ -1,6 +1,7 @@
 //! Batches: the outcomes of each track alone, to the bit, for any number of threads.
 
 use core::num::NonZeroUsize;
+use core::ops::ControlFlow;
 use core::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use givens::batch::{Batch, Track};
 use givens::filter::Gaussian;
@@ -148,4 +149,40 @@ fn a_batch_is_cancelled_before_the_next_row() {
         assert_eq!(done, [true, false, false], "{goal:?}");
         assert_eq!(sensor.seen.load(Ordering::Relaxed), 35, "{goal:?}");
     }
+}
+
+#[test]
+fn a_visitor_ends_the_way_back() {
+    use givens::filter::{Ckf, Filter, Over, Prior, SrCkf};
+    use givens::rule::Rule;
+    use givens::smoother::{History, Smoothed};
+    fn visited<X: Over<Motion>>(method: X, square_root: bool) -> (usize, usize) {
+        let problem = Problem::random(71, 2, 1, 6, 0.0);
+        let (sizes, prior) = (method.sizes(&problem.model).unwrap(), problem.prior());
+        let sizes = sizes.with_sensor(&problem.sensor, method.rule().shape(2));
+        let memory = vec![0.0; Filter::<X, Motion, f64, Vec<f64>>::memory_len(&method, sizes, true)];
+        let prior = Prior { time: 0.0, mean: prior.mean(), factor: prior.factor(), cov: prior.cov() };
+        let mut filter = Filter::start_in(method, &problem.model, sizes, true, prior, memory).unwrap();
+        let memory = vec![0.0; History::<f64, Vec<f64>>::memory_len(2, 6)];
+        let mut history = History::new(2, square_root, memory);
+        for row in problem.rows() {
+            history.predict(&mut filter, row.time).unwrap();
+            filter.update_present(&problem.sensor, row.z, &[!row.z[0].is_nan()]).unwrap();
+        }
+        let (mut smoothed, mut drawn) = (0, 0);
+        let until = |age: usize| if age < 2 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) };
+        let visit = |age: usize, _: &Smoothed<f64>| {
+            smoothed += 1;
+            until(age)
+        };
+        history.smooth(&filter, 6, visit).unwrap();
+        let visit = |age: usize, _: usize, _: &[f64]| {
+            drawn += 1;
+            until(age)
+        };
+        history.sample(&filter, 6, &mut [0.0; 2], |_| 0.5, visit).unwrap();
+        (smoothed, drawn)
+    }
+    assert_eq!(visited(Ckf::DEFAULT, false), (3, 3));
+    assert_eq!(visited(SrCkf::DEFAULT, true), (3, 3));
 }

@@ -389,7 +389,7 @@ CASES = [
     (
         lambda: gv.simulate(MODEL, LENGTH, T, prior=PRIOR, seed=1, runs=4_000_000_000),
         gv.InputError,
-        "`runs` is 4000000000: they need 4.416e12 bytes at once, more than there is memory for\n  help: draw fewer at a time, each time with another seed",
+        "`runs` is 4000000000: they need 4.128e12 bytes at once, more than there is memory for\n  help: draw fewer at a time, each time with another seed",
     ),
     (
         lambda: gv.filter(MODEL, LENGTH, T, np.where(T[:, None] == 2, np.inf, Z), prior=PRIOR),

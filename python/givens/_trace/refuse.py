@@ -69,8 +69,8 @@ def refuse_branch() -> TraceError:
     return refuse("a value that is not known yet is taken as true or false", _WHERE, place)
 
 
-#: An assignment to an element: the name of the array.
-_ELEMENT = re.compile(r"([A-Za-z_][\w.]*)\s*\[[^=]*\]\s*(?:[-+*/%@]|\*\*|//)?=(?!=)")
+#: An assignment to an element, or in place: the name of the array.
+_FILLED = re.compile(r"([A-Za-z_][\w.]*)\s*(?:\[[^=]*\]\s*(?:[-+*/%@]|\*\*|//)?|(?:[-+*/%@]|\*\*|//))=(?!=)")
 _CONVERSIONS = {
     "float": "leave the conversion out; math.floor, math.sqrt and their kin take such values as they are",
     "int": "np.floor(x) or np.trunc(x) stay expressions",
@@ -83,23 +83,21 @@ _CONVERSIONS = {
 
 def refuse_conversion(kind: str, remedy: str | None = None) -> TraceError:
     """Of a symbol that was to become a plain number."""
-    if kind == "float":
-        place = here()
-        filled = _ELEMENT.search(place.source or "")
-        if filled is not None and "float(" not in (place.source or ""):
-            return refuse_filling(filled.group(1), place)
+    if kind == "float" and "float(" not in (here().source or "") and _FILLED.search(here().source or ""):
+        return refuse_filling()
     what = {"index": "used as an index or a count", "round": "rounded to a plain number"}
     said = what.get(kind, f"turned into {'an' if kind == 'int' else 'a'} {kind}")
     return refuse(f"a value that is not known yet is {said}", remedy or _CONVERSIONS.get(kind, "leave the conversion out: everything is a 64-bit float"))
 
 
-def refuse_filling(array: str | None = None, place: Place | None = None) -> TraceError:
+def refuse_filling() -> TraceError:
     """Of an array made elsewhere, or by arithmetic on numbers, that was to take a symbol."""
-    name = array or "y"
+    place = here()
+    found = _FILLED.search(place.source or "")
+    name = found.group(1) if found is not None else "y"
     return refuse(
-        f"{f'`{name}`' if array else 'an array'} of plain numbers was to take a value that is not known yet",
-        f"write {name} = np.array({name}) before: arrays that np.array, np.zeros and their kin make inside the function "
-        "take it",
+        f"{'an array of plain numbers' if found is None else f'`{name}`, an array of plain numbers,'} was to take a value that is not known yet",
+        f"write {name} = np.array({name}) before: what np.array, np.zeros and their kin make inside the function takes it",
         place,
     )
 

@@ -8,7 +8,15 @@ from contextvars import ContextVar
 from givens._trace.place import Place, here
 from givens.errors import TraceError
 
-__all__ = ["failures", "refuse", "refuse_argument", "refuse_branch", "refuse_conversion", "refuse_filling", "refuse_function"]
+__all__ = [
+    "failures",
+    "refuse",
+    "refuse_argument",
+    "refuse_branch",
+    "refuse_conversion",
+    "refuse_filling",
+    "refuse_function",
+]
 
 #: The first refusal while a function is traced: one that the function itself caught is raised all the same.
 failures: ContextVar[list[TraceError] | None] = ContextVar("failures", default=None)
@@ -87,7 +95,10 @@ def refuse_conversion(kind: str, remedy: str | None = None) -> TraceError:
         return refuse_filling()
     what = {"index": "used as an index or a count", "round": "rounded to a plain number"}
     said = what.get(kind, f"turned into {'an' if kind == 'int' else 'a'} {kind}")
-    return refuse(f"a value that is not known yet is {said}", remedy or _CONVERSIONS.get(kind, "leave the conversion out: everything is a 64-bit float"))
+    return refuse(
+        f"a value that is not known yet is {said}",
+        remedy or _CONVERSIONS.get(kind, "leave the conversion out: everything is a 64-bit float"),
+    )
 
 
 def refuse_filling() -> TraceError:
@@ -109,7 +120,9 @@ def refuse_function(name: str, remedy: str | None = None) -> TraceError:
 
 def refuse_argument(name: str, argument: str) -> TraceError:
     """Of an argument of a function that would not be honoured."""
-    return refuse(f"{name}(…, {argument}=…) has no expression here", _ARGUMENTS.get(argument, f"leave `{argument}` out"))
+    return refuse(
+        f"{name}(…, {argument}=…) has no expression here", _ARGUMENTS.get(argument, f"leave `{argument}` out")
+    )
 
 
 _ARGUMENTS = {

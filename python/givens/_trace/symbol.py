@@ -63,7 +63,9 @@ class Sym:
 
     def __sub__(self, other: Any) -> Any:
         if is_condition(self) and is_condition(other):
-            raise refuse("NumPy takes no condition from another", "write a ^ b, or np.where(a, 1, 0) - np.where(b, 1, 0)")
+            raise refuse(
+                "NumPy takes no condition from another", "write a ^ b, or np.where(a, 1, 0) - np.where(b, 1, 0)"
+            )
         return binary("sub", self, other)
 
     def __rsub__(self, other: Any) -> Any:

@@ -3,22 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from givens._arrays import Array
+from givens._compiled import address_of, is_compiled
 from givens._native import Function
 from givens._trace.arguments import parameter_value, read_arguments
+from givens.errors import InputError
 
 if TYPE_CHECKING:
     from givens._part import Request
 
 __all__ = ["Called", "called", "slots"]
 
-#: Points at which it is found out whether a function takes many at once.
-_TRIED = 3
+
+def _shown(value: Any) -> str:
+    text = repr(value)
+    return text if len(text) < 80 else f"{text[:77]}…"
 
 
 def slots(parameters: Mapping[str, Array], start: int = 0) -> dict[str, slice]:
@@ -34,6 +38,7 @@ def slots(parameters: Mapping[str, Array], start: int = 0) -> dict[str, slice]:
 class Called:
     """A function that is called as it is."""
 
+    argument: str
     function: Any
     positions: tuple[str, ...]
     parameters: dict[str, Array]
@@ -46,8 +51,9 @@ class Called:
 
     def native(self, places: Mapping[str, slice]) -> Function:
         """As the native half takes it."""
-        if hasattr(self.function, "address"):
-            return Function.address(int(self.function.address), self.function, step="dt" in self.positions)
+        if is_compiled(self.function):
+            address = address_of(self.argument, self.function, len(self.positions) + 2)
+            return Function.address(address, self.function, step="dt" in self.positions)
         return Function.callable(_Caller(self, {name: places[name] for name in self.parameters}))
 
 
@@ -72,38 +78,63 @@ class _Caller:
         values = {"t": t, "dt": dt, "x": x, "u": u}
         result = self.called.function(*(values[position] for position in self.called.positions), **named)
         if isinstance(result, dict):
+            missing = [name for name in self.called.names if name not in result]
+            if missing:
+                raise self.wrong(f"gave a table without `{missing[0]}`", x)
             result = [result[name] for name in self.called.names]
+        if result is None:
+            raise self.wrong("gave nothing", x)
         if isinstance(result, (list, tuple)) and self.called.many:
             # a component that is the same at all points may be one number
             result = np.broadcast_arrays(*result)
-        return np.asarray(result, dtype=float)
+        try:
+            given = np.asarray(result)
+        except ValueError:
+            raise self.wrong(f"gave {result!r}, which is no array of numbers", x) from None
+        if given.dtype.kind not in "fiub":
+            given = self.real(given, x)
+        if len(self.called.names) == 1 and given.shape == x.shape[1:]:
+            given = given[None]
+        if self.called.names and not self.called.single and given.shape != self.wanted(x):
+            shape = "one number" if given.shape == () else f"an array of shape {given.shape}"
+            raise self.wrong(f"gave {shape}, not one of shape {self.wanted(x)}", x)
+        return given.astype(float)
+
+    def real(self, given: Any, x: Array) -> Array:
+        """Objects that are numbers, as such."""
+        try:
+            if given.dtype.kind != "O":
+                raise TypeError
+            return given.astype(float)  # type: ignore[no-any-return]
+        except (TypeError, ValueError):
+            raise self.wrong(f"gave {_shown(given.tolist())}, which is no array of real numbers", x) from None
+
+    def wanted(self, x: Array) -> tuple[int, ...]:
+        return (len(self.called.names), *x.shape[1:])
+
+    def wrong(self, said: str, x: Array) -> InputError:
+        """Of a function that did not give what it is to give."""
+        name = self.called.argument
+        many = ", one column for each of the points in x" if self.called.many else ""
+        what = f"return one value for each of {', '.join(self.called.names)}{many}" if self.called.names else None
+        return InputError(f"`{name}` {said}", argument=name, remedy=what or "end it with `return [...]`")
 
 
 def called(request: Request, function: Callable[..., Any]) -> Called:
-    """Reads the call of such a function, and finds out whether one call can take all points."""
-    if hasattr(function, "address"):
+    """Reads the call of such a function."""
+    if is_compiled(function):
+        address_of(request.argument, function, len(request.required) + 2)
         given = {name: parameter_value(request.argument, name, v) for name, v in request.parameters.items()}
-        return Called(function, request.required, given, None, request.names, many=False)
+        return Called(request.argument, function, request.required, given, None, request.names, many=False)
     arguments = read_arguments(request.argument, function, request.required, request.optional, request.parameters)
-    one = Called(function, arguments.positions, arguments.parameters, None, request.names, many=False)
-    if "x" not in arguments.positions or request.argument == "jacobian":
-        return replace(one, single=True)
-    many = Called(function, arguments.positions, arguments.parameters, None, request.names, many=True)
-    return many if _agree(one, many, request) else one
-
-
-def _agree(one: Called, many: Called, request: Request) -> bool:
-    """Whether many points at once give what they give one by one."""
-    sizes = request.sizes
-    x = np.linspace(0.1, 1.9, max(sizes.states, 1) * _TRIED).reshape(_TRIED, -1)[:, : sizes.states].T
-    u = np.full(sizes.controls, 0.5)
-    p = np.concatenate([value.ravel() for value in one.parameters.values()] or [np.empty(0)])
-    places = slots(one.parameters)
-    try:
-        with np.errstate(all="ignore"):
-            single = _Caller(one, places)(0.5, 0.5, x, u, p)
-            joint = _Caller(many, places)(0.5, 0.5, x, u, p)
-    except Exception:
-        # a branch on an array, or indices that mean something else: it is called point by point, and speaks there
-        return False
-    return single.shape == joint.shape and bool(np.allclose(single, joint, rtol=1e-9, atol=0, equal_nan=True))
+    single = "x" not in arguments.positions or request.argument == "jacobian"
+    return Called(
+        request.argument,
+        function,
+        arguments.positions,
+        arguments.parameters,
+        None,
+        request.names,
+        many=request.vectorized and not single,
+        single=single,
+    )

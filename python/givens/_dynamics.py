@@ -14,7 +14,7 @@ from givens._part import Part, Request
 from givens._trace.arguments import parameter_value
 from givens.errors import InputError
 
-__all__ = ["Dynamics", "Parametric", "begin", "noise_request", "parameters_of", "read_jacobian"]
+__all__ = ["Dynamics", "Parametric", "begin", "called_at_once", "noise_request", "parameters_of", "read_jacobian"]
 
 
 def parameters_of(tables: Iterable[Mapping[str, Array]], given: Mapping[str, object]) -> dict[str, Array]:
@@ -148,7 +148,12 @@ class Dynamics(Parametric):
 
 
 def begin(
-    state: object, controls: object, parameters: Mapping[str, object] | None, trace: bool, check_at: Any
+    state: object,
+    controls: object,
+    parameters: Mapping[str, object] | None,
+    trace: bool,
+    vectorized: bool,
+    check_at: Any,
 ) -> dict[str, Any]:
     """The fields of requests that the two kinds of models read alike."""
     states = names_of("state", state, example='["x", "vx"]')
@@ -169,8 +174,20 @@ def begin(
         "controls": held,
         "parameters": dict(parameters or {}),
         "trace": trace,
+        "vectorized": called_at_once(vectorized, trace),
         "check_at": check_at,
     }
+
+
+def called_at_once(vectorized: bool, trace: bool) -> bool:
+    """Refuses `vectorized` of a function that is traced, which no one reads."""
+    if vectorized and trace:
+        raise InputError(
+            "`vectorized` is given, but the function is traced",
+            argument="vectorized",
+            remedy="leave it out, or write trace=False beside it",
+        )
+    return bool(vectorized)
 
 
 def read_jacobian(given: Any, main: Part, common: Mapping[str, Any], required: tuple[str, ...]) -> Part | None:
@@ -183,7 +200,9 @@ def read_jacobian(given: Any, main: Part, common: Mapping[str, Any], required: t
             argument="jacobian",
             remedy="leave it out: a traced function has exact derivatives of its own",
         )
-    return Request("jacobian", required, ("u",) if common["controls"] else (), **{**common, "trace": False}).read(given)
+    return Request(
+        "jacobian", required, ("u",) if common["controls"] else (), **{**common, "trace": False, "vectorized": False}
+    ).read(given)
 
 
 def noise_request(argument: str, required: tuple[str, ...], u: tuple[str, ...], common: Mapping[str, Any]) -> Request:

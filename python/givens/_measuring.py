@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from givens._arrays import Array, numbers, shape_error, vector
+from givens._compiled import is_compiled
 from givens._dynamics import parameters_of
 from givens._names import known_name, names_of, ordered
 from givens._part import Request, is_function
@@ -79,9 +80,9 @@ def parameters(given: Mapping[str, Any], noise: str) -> dict[str, Array]:
     tables: list[Mapping[str, Array]] = []
     for argument, required in (("h", ("t", "x")), (noise, ("t",))):
         function = given[argument]
-        if callable(function):
+        if callable(function) and not is_compiled(function):
             tables.append(read_arguments(argument, function, required, ("u",), given["parameters"]).parameters)
-        elif is_symbolic(function) or hasattr(function, "address"):
+        elif is_symbolic(function) or is_compiled(function):
             tables.append({n: parameter_value(argument, n, v) for n, v in given["parameters"].items()})
     return parameters_of(tables, given["parameters"])
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from givens._arrays import Array
 from givens._called import Called, called
+from givens._compiled import is_compiled
 from givens._native import Function, Graph
 from givens._symbolic import is_symbolic, of_sympy
 from givens._trace.arguments import Arguments, read_arguments
@@ -38,6 +39,8 @@ class Request:
     #: Values for its parameters.
     parameters: Mapping[str, object] = field(default_factory=dict)
     trace: bool = True
+    #: Whether a function that is called takes all points at once.
+    vectorized: bool = False
     may_call: bool = True
     check_at: Array | None = None
 
@@ -56,7 +59,7 @@ class Request:
                 remedy = f"write def {self.argument}({', '.join(self.required)}): return […]"
                 raise InputError(said, argument=self.argument, remedy=remedy)
             return Part(self.argument, _numbers(self.argument, given))
-        if self.may_call and (hasattr(given, "address") or not self.trace):
+        if self.may_call and (is_compiled(given) or not self.trace):
             return Part(self.argument, called=called(self, given))
         # what knows symbols is a third of the package, and a model file needs none of it
         from givens._trace.check import compare
@@ -148,4 +151,4 @@ def _numbers(argument: str, given: Any) -> Traced:
 
 def is_function(given: object) -> bool:
     """Whether an argument is a function, by itself or by its address."""
-    return callable(given) or hasattr(given, "address")
+    return callable(given) or is_compiled(given)

@@ -27,7 +27,7 @@ class Sde(Dynamics):
         ``*``, are parameters: numbers or arrays of floats. It is written in NumPy or `math`, called twice with symbols,
         and compared with what came out of that at random points; it runs natively from then on. Values that it reads
         from elsewhere, and defaults that are no numbers, are those of this moment. A list of SymPy expressions in the
-        names of the states, and a function of C by its ``address`` (such as numba's ``cfunc``), serve as well.
+        names of the states, and a function of C, numba's ``cfunc`` or a function pointer of ctypes, serve as well.
     diffusion : array_like, mapping or callable
         G per square-root unit time: its diagonal, shape (n,), or all of it, (n, q); a table by the names of the states,
         where those left out have none. Numbers, or ``diffusion(t)``, ``(t, u)``, ``(t, x)``, ``(t, x, u)``, told apart
@@ -39,8 +39,11 @@ class Sde(Dynamics):
     parameters : mapping, optional
         Values of parameters, in place of their defaults.
     trace : bool, optional
-        False calls the drift while the filter runs, at a large cost in time; for one that branches on values. It is
-        given `x` of shape (n, points) if it can take that. The diffusion is traced in any case.
+        False calls the drift while the filter runs, at a large cost in time; for one that branches on values. The
+        diffusion is traced in any case.
+    vectorized : bool, optional
+        True calls a drift that is not traced with all points at once, `x` of shape (n, points), for results of the
+        same shape; otherwise it is called point by point.
     jacobian : callable, optional
         ∂f/∂x of a drift that is not traced, (n, n), called as the drift is.
     check_at : array_like, shape (n,), optional
@@ -77,10 +80,11 @@ class Sde(Dynamics):
         controls: Sequence[str] = (),
         parameters: Mapping[str, object] | None = None,
         trace: bool = True,
+        vectorized: bool = False,
         jacobian: Callable[..., Any] | None = None,
         check_at: npt.ArrayLike | None = None,
     ) -> None:
-        common = begin(state, controls, parameters, trace, check_at)
+        common = begin(state, controls, parameters, trace, vectorized, check_at)
         states: tuple[str, ...] = common["states"]
         u = ("u",) if common["controls"] else ()
         moves = Request("drift", ("t", "x"), u, states, **common).read(drift)

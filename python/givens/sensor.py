@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from givens._arrays import shape_error
-from givens._dynamics import Parametric, noise_request, read_jacobian
+from givens._dynamics import Parametric, called_at_once, noise_request, read_jacobian
 from givens._measuring import near, periods, spread
 from givens._measuring import parameters as parameters_known
 from givens._names import listed, names_of
@@ -44,7 +44,7 @@ class Sensor(Parametric):
         wrapped everywhere.
     name : str, optional
         By which measurements and errors name the sensor.
-    parameters, trace, jacobian, check_at
+    parameters, trace, vectorized, jacobian, check_at
         As for `Sde`; a jacobian has shape (d, n).
 
     Raises
@@ -64,11 +64,12 @@ class Sensor(Parametric):
     Sensor(h, name=radar, measures=[range, bearing], std=[10.0, 0.003], angles=[bearing])
     """
 
-    __slots__ = ("_given", "_noise", "_periods", "_traces", "check_at", "measures", "name", "trace")
+    __slots__ = ("_given", "_noise", "_periods", "_traces", "check_at", "measures", "name", "trace", "vectorized")
 
     name: str
     measures: tuple[str, ...]
     trace: bool
+    vectorized: bool
     check_at: Any
     _given: dict[str, Any]
     _noise: str
@@ -86,6 +87,7 @@ class Sensor(Parametric):
         name: str = "sensor",
         parameters: Mapping[str, object] | None = None,
         trace: bool = True,
+        vectorized: bool = False,
         jacobian: Callable[..., Any] | None = None,
         check_at: npt.ArrayLike | None = None,
     ) -> None:
@@ -109,6 +111,7 @@ class Sensor(Parametric):
             name=str(name),
             measures=columns,
             trace=trace,
+            vectorized=called_at_once(vectorized, trace),
             check_at=check_at,
             _given=given,
             _noise=noise,
@@ -140,7 +143,7 @@ class Sensor(Parametric):
             )
         u = ("u",) if controls else ()
         common = {"states": states, "controls": controls, "parameters": self._given["parameters"]}
-        common |= {"trace": self.trace, "check_at": near(self.check_at, states)}
+        common |= {"trace": self.trace, "vectorized": self.vectorized, "check_at": near(self.check_at, states)}
         request = Request("h", ("t", "x"), u, self.measures, **common)
         parts = {"h": request.read(self._given["h"])}
         d, shape = len(self.measures), parts["h"].shape

@@ -32,7 +32,7 @@ class Transition(Dynamics):
     step : float, optional
         The length of one transition: a gap is then a whole number of them, and `dt` is the step. Without it, `f`
         and `noise_cov` are applied once over each gap.
-    controls, parameters, trace, jacobian, check_at
+    controls, parameters, trace, vectorized, jacobian, check_at
         As for `Sde`; a function of C is ``void f(double t, double dt, const double *x, const double *p, double *out)``.
 
     Raises
@@ -68,10 +68,11 @@ class Transition(Dynamics):
         controls: Sequence[str] = (),
         parameters: Mapping[str, object] | None = None,
         trace: bool = True,
+        vectorized: bool = False,
         jacobian: Callable[..., Any] | None = None,
         check_at: npt.ArrayLike | None = None,
     ) -> None:
-        common = begin(state, controls, parameters, trace, check_at)
+        common = begin(state, controls, parameters, trace, vectorized, check_at)
         states: tuple[str, ...] = common["states"]
         u = ("u",) if common["controls"] else ()
         if step is not None and not float(step) > 0:

@@ -16,6 +16,12 @@ WHERE = "write np.where(condition, yes, no)"
 WRITE = "write it with arithmetic and NumPy's elementary functions, or pass trace=False"
 HOLDS = "asks whether a value holds that is not known yet"
 FIRST = "call it with numbers first; if it is right, write it in NumPy's own functions, or pass trace=False"
+FILLED = "`y`, an array of plain numbers, was to take a value that is not known yet"
+TAKES = "write y = np.array(y) before: what np.array, np.zeros and their kin make inside the function takes it"
+KEEPS = "keep nothing between calls: fill a cache before, compute it outside, or pass trace=False"
+ASSIGN = "assign the result: y[:] = …"
+CACHE = {}
+LOG = []
 
 
 def refused(said, remedy, line=2):
@@ -103,7 +109,7 @@ def a_caught_error(t, x):
 
 @refused(
     "a value that is not known yet is turned into a float",
-    "leave the conversion out; fill arrays made by np.zeros or np.array inside the function",
+    "leave the conversion out; math.floor, math.sqrt and their kin take such values as they are",
 )
 def a_float(t, x):
     return [float(x[0]), 0, 0]
@@ -140,22 +146,21 @@ def a_format(t, x):
     return [f"{x[0]:.3f}"]
 
 
-@refused(
-    "a value that is not known yet is turned into a float",
-    "leave the conversion out; fill arrays made by np.zeros or np.array inside the function",
-    line=3,
-)
+@refused(FILLED, TAKES, line=3)
 def a_copy_of_numbers(t, x):
     y = CONSTANT.copy()
     y[0, 0] = x[0]
     return y @ x
 
 
-@refused(
-    "an array of plain numbers was to take a value that is not known yet",
-    "make it inside the function with np.zeros or np.array, or write y = y + … in place of y += …",
-    line=3,
-)
+@refused(FILLED, TAKES, line=3)
+def numbers_by_arithmetic(t, x):
+    y = np.arange(3) * 0.5
+    y[0] = x[0]
+    return y
+
+
+@refused(FILLED, TAKES, line=3)
 def in_place_on_numbers(t, x):
     y = CONSTANT[0].copy()
     y += x
@@ -297,3 +302,75 @@ def finite_nowhere(t, x):
 )
 def failing_everywhere(t, x):
     return [math.sqrt(-(x[0] ** 2) - 1), 0, 0]
+
+
+@refused("it keeps a value that is not known yet in `CACHE`", KEEPS, line=0)
+def a_filled_cache(t, x):
+    if "A" not in CACHE:
+        CACHE["A"] = np.eye(3) * 0.9
+    return CACHE["A"] @ x
+
+
+@refused("it keeps a value that is not known yet in `LOG`", KEEPS, line=0)
+def a_log(t, x):
+    LOG.append(x)
+    return x
+
+
+@refused("it keeps a value that is not known yet in `store`", KEEPS, line=0)
+def a_default_that_is_filled(t, x, store=[]):  # noqa: B006
+    store.append({"x": x})
+    return x
+
+
+@refused("numpy.sum(…, where=…) has no expression here", WHERE)
+def a_sum_of_some(t, x):
+    return x * np.sum(x, where=[True, False, True])
+
+
+@refused("numpy.mean(…, where=…) has no expression here", WHERE)
+def a_mean_of_some(t, x):
+    return x * np.mean(x, where=[True, False, True])
+
+
+DOUBLE = "leave `dtype` out: everything is a 64-bit float; np.floor(x) and np.trunc(x) stay expressions"
+
+
+@refused("numpy.sum(…, dtype=…) has no expression here", DOUBLE)
+def a_sum_of_whole_numbers(t, x):
+    return x * np.sum(x, dtype=int)
+
+
+@refused("numpy.multiply(…, dtype=…) has no expression here", DOUBLE)
+def a_product_in_single_precision(t, x):
+    return np.multiply(x, x, dtype=np.float32)
+
+
+@refused(
+    "a value that is not known yet is turned into a float32",
+    "leave the conversion out: everything is a 64-bit float",
+)
+def a_single_precision(t, x):
+    return x.astype(np.float32)
+
+
+@refused("numpy.round(…, out=…) has no expression here", ASSIGN, line=3)
+def an_out_by_position(t, x):
+    y = np.array(x)
+    np.round(y, 2, y)
+    return y
+
+
+@refused("numpy.average(…, returned=…) has no expression here", "leave `returned` out")
+def an_average_with_its_weight(t, x):
+    return x * np.average(x, weights=[1, 2, 3], returned=True)[1]
+
+
+@refused("numpy.linspace(…, retstep=…) has no expression here", "leave `retstep` out")
+def a_linspace_with_its_step(t, x):
+    return x * np.linspace(0, x[0], 4, retstep=True)[1]
+
+
+@refused("NumPy takes no condition from another", "write a ^ b, or np.where(a, 1, 0) - np.where(b, 1, 0)")
+def a_difference_of_conditions(t, x):
+    return x * ((x > 0) - (x > 1))

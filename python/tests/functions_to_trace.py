@@ -537,3 +537,55 @@ def lists_of_values(t, x):
 
 
 named("slots", _Slots(2.0).drift)
+
+
+@traced
+def shares(t, x):
+    return [np.logaddexp(x[0], 0), np.logaddexp2(x[1], 0), np.logaddexp.reduce(x / 100), np.logaddexp(-np.inf, x[2])][:3]
+
+
+@traced
+def beyond_overflow(t, x):
+    y = x * 1e155
+    return np.arcsinh(y) + np.arccosh(1 + np.abs(y)) + np.expm1(-np.abs(y)) + np.arcsinh(np.exp(x))
+
+
+@traced
+def periods_of_time(t, x):
+    k = np.rint(t * 100)
+    return [(k * 0.1) % 0.1 + x[0], (k * 0.1) // 0.1, np.fmod(k * 0.7, 0.7) + divmod(k * 0.1, 0.1)[0]]
+
+
+@traced
+def remainders_by_a_state(t, x):
+    return (x + 1e6) % x[0] + x // x[1] + np.fmod(x, -x[2])
+
+
+@traced
+def exponents(t, x):
+    y = 2.0 ** np.floor(x)
+    return [np.floor(np.log2(y[0])), np.floor(np.log2(y[1])), np.ceil(np.log2(y[2]))]
+
+
+@traced
+def results_put_elsewhere(t, x):
+    y, z = np.array([t * 10, x[0], x[1]]), np.array(x)
+    np.clip(y, -1, 1.5, out=y)
+    z.clip(-0.5, None, out=z)
+    w = np.zeros(3)
+    np.dot(MATRIX, x, out=w)
+    np.cumsum(z, out=z)
+    np.round(w, 1, out=w)
+    np.nan_to_num(z, copy=False)
+    return y + z + w
+
+
+@traced
+def sums_of_conditions(t, x):
+    both = (x > 0) + (x > 0.5)
+    return [both.astype(float)[0], np.sum(x > 0) * 1.0 + np.mean(x > 1), ((x[0] > 0) + (x[0] > 1)) * x[1] + sum(x > 0)]
+
+
+@traced
+def nearly_the_same(t, x):
+    return np.where(np.isclose(x, np.where(x > 2, np.inf, x[0])), 1.0, 2.0) + np.isclose(1 / (x - x), np.inf)

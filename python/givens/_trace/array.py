@@ -11,7 +11,7 @@ import numpy.typing as npt
 from givens._trace.refuse import refuse, refuse_branch, refuse_conversion
 from givens._trace.symbol import Scalar, Sym, is_number
 
-__all__ = ["SymArray", "boxed", "has_symbols", "lifted", "numbers", "plain", "rank", "unboxed"]
+__all__ = ["SymArray", "boxed", "check_held", "has_symbols", "lifted", "numbers", "plain", "rank", "unboxed"]
 
 Objects = np.ndarray[Any, np.dtype[np.object_]]
 
@@ -65,13 +65,11 @@ class SymArray(np.ndarray[Any, np.dtype[np.object_]]):
     def __format__(self, spec: str) -> str:
         return repr(self)
 
-    def astype(self, dtype: Any, *_: Any, **__: Any) -> Any:
+    def astype(self, dtype: Any, *_: Any, copy: bool = True, **__: Any) -> Any:
         if not has_symbols(self):
             return numbers(self).astype(dtype)
-        kind = np.dtype(dtype).kind
-        if kind in "iu":
-            raise refuse_conversion("int")
-        return self.copy()
+        check_held(dtype)
+        return self.copy() if copy else self
 
 
 def _reduction(name: str) -> Any:
@@ -160,6 +158,12 @@ def unboxed(objects: Any) -> Any:
     if isinstance(objects, np.ndarray):
         return objects.item() if objects.ndim == 0 else objects.view(SymArray)
     return objects
+
+
+def check_held(dtype: Any) -> None:
+    """Refuses to hold symbols as anything but 64-bit floats."""
+    if dtype is not None and np.dtype(dtype) not in (np.float64, np.object_):
+        raise refuse_conversion("int" if np.dtype(dtype).kind in "iu" else str(np.dtype(dtype)))
 
 
 def has_symbols(value: Any) -> bool:

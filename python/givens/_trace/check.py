@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -12,6 +12,7 @@ import numpy.typing as npt
 from givens._native import Graph
 from givens._trace.place import of_function
 from givens._trace.refuse import refuse
+from givens._trace.slopes import Slopes, wrong_slope
 from givens._trace.traced import Sizes, Traced
 from givens.errors import GivensError, TraceError
 
@@ -131,6 +132,46 @@ def compare(
             "pass check_at=… with a state where it is finite",
             of_function(function),
         )
+    compare_slopes(function, traced, sizes, names, near)
+
+
+def compare_slopes(
+    function: Callable[..., Any],
+    traced: Traced,
+    sizes: Sizes,
+    names: tuple[str, ...],
+    near: Array | None = None,
+) -> None:
+    """Raises a `TraceError` if the derivatives differ: at zero and where states are equal, at `near`, and elsewhere."""
+    n = sizes.states
+    if "x" not in traced.arguments.positions or not n or not traced.nodes:
+        return
+    uniform, normal = _draws()
+    t, dt = 0.5, 0.25
+    slopes, axes = Slopes(traced, sizes, dt), list(np.eye(n))
+    places = [(np.zeros(n), axes), (np.ones(n), axes)]
+    places += [(np.array(near, dtype=float), axes)] if near is not None else []
+    places += [(scale * normal(n), [2 * uniform(n) - 1]) for scale in (1.0, 30.0)]
+    for x, directions in places:
+        point = Point(t, dt, x, np.full(sizes.controls, 0.5), traced.arguments.values)
+        found = slopes.at(t, x, point.u, point.p)
+        try:
+            wrong = found is not None and wrong_slope(
+                lambda moved, at=point: _real(function, traced, replace(at, x=moved), names), x, found, directions
+            )
+        except Exception:
+            # where the function has no value, it has no derivative
+            continue
+        if wrong:
+            k, direction, own, other = wrong
+            by = f"x[{int(np.argmax(direction))}]" if np.count_nonzero(direction) == 1 else _digits(direction)
+            raise refuse(
+                f"its expressions do not have its derivatives: that of {_component(k, traced.shape, names)} by {by} is "
+                f"{own:.6g}, and that of its expressions {other:.6g} at {point.named(traced.arguments.positions)}",
+                "write np.where(x < 0, -f(-x), f(x)) for np.sign(x) * f(np.abs(x)), and give both sides of an np.where "
+                "one slope where they meet; or pass trace=False",
+                of_function(function),
+            )
 
 
 def _differs(function: Callable[..., Any], said: str) -> TraceError:

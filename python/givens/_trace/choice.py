@@ -8,8 +8,9 @@ from typing import Any
 import numpy as np
 
 from givens._trace.array import SymArray, boxed, has_symbols, numbers, plain, rank
-from givens._trace.elementary import rint, sinc, trunc
-from givens._trace.refuse import refuse
+from givens._trace.elementary import sinc
+from givens._trace.refuse import refuse, refuse_argument
+from givens._trace.rounding import rint, trunc
 from givens._trace.symbol import select
 from givens._trace.universal import elementwise, mapped
 
@@ -57,8 +58,8 @@ def piecewise(x: Any, condlist: Any, funclist: Sequence[Any], *args: Any, **kwar
     return result
 
 
-def clip(a: Any, a_min: Any = None, a_max: Any = None, out: Any = None, **kwargs: Any) -> Any:
-    low, high = kwargs.get("min", a_min), kwargs.get("max", a_max)
+def clip(a: Any, a_min: Any = None, a_max: Any = None, out: Any = None, *, min: Any = None, max: Any = None) -> Any:
+    low, high = a_min if min is None else min, a_max if max is None else max
     a = a if low is None else elementwise("maximum", a, low)
     return a if high is None else elementwise("minimum", a, high)
 
@@ -102,16 +103,28 @@ def round_(a: Any, decimals: int = 0, out: Any = None) -> Any:
 def nan_to_num(x: Any, copy: bool = True, nan: Any = 0.0, posinf: Any = None, neginf: Any = None) -> Any:
     top = np.finfo(float).max
     high, low = (top if posinf is None else posinf), (-top if neginf is None else neginf)
-    x = boxed(x) if rank(x) else x
-    return where(x == np.inf, high, where(x == -np.inf, low, where(x == x, x, nan)))
+    objects = boxed(x) if rank(x) else x
+    result = where(objects == np.inf, high, where(objects == -np.inf, low, where(objects == objects, objects, nan)))
+    if copy or not rank(x):
+        return result
+    if not isinstance(x, SymArray):
+        raise refuse_argument("numpy.nan_to_num", "copy")
+    x[...] = result
+    return x
 
 
 def isclose(a: Any, b: Any, rtol: float = 1e-05, atol: float = 1e-08, equal_nan: bool = False) -> Any:
     difference = elementwise("absolute", elementwise("subtract", a, b))
-    return elementwise("less_equal", difference, elementwise("absolute", b) * rtol + atol)
+    close = elementwise("less_equal", difference, elementwise("absolute", b) * rtol + atol)
+    close = elementwise("logical_and", close, elementwise("isfinite", b))
+    close = elementwise("logical_or", close, elementwise("equal", a, b))
+    if equal_nan:
+        both = elementwise("logical_and", elementwise("isnan", a), elementwise("isnan", b))
+        return elementwise("logical_or", close, both)
+    return close
 
 
-def linspace(start: Any, stop: Any, num: int = 50, endpoint: bool = True, **_: Any) -> Any:
+def linspace(start: Any, stop: Any, num: int = 50, endpoint: bool = True, dtype: Any = None) -> Any:
     parts = max(num - 1 if endpoint else num, 1)
     return boxed([start + (stop - start) * (k / parts) for k in range(num)])
 

@@ -6,71 +6,26 @@ to a few units in the last place; the sign of a zero is not kept.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from math import log, pi
+from math import pi
 from typing import Any
 
-from givens._trace.symbol import Scalar, Sym, binary, power, select, unary
+from givens._trace import logarithms, rounding
+from givens._trace.applied import apply, polynomial
+from givens._trace.symbol import Sym, binary, power, select, unary
 
 __all__ = ["ELEMENTARY"]
 
 
-def _apply(op: str, a: Scalar) -> Any:
-    if isinstance(a, Sym):
-        return unary(op, a)
-    import numpy as np
-
-    return getattr(np, _NUMPY.get(op, op))(a)
-
-
-_NUMPY = {"asin": "arcsin", "acos": "arccos", "atan": "arctan", "neg": "negative"}
-
-
-def _polynomial(x: Scalar, coefficients: Sequence[float]) -> Any:
-    """By Horner's scheme; the constant first."""
-    total: Any = coefficients[-1]
-    for coefficient in reversed(coefficients[:-1]):
-        total = total * x + coefficient
-    return total
-
-
-# rounding
-
-
-def ceil(a: Any) -> Any:
-    return -_apply("floor", -a)
-
-
-def trunc(a: Any) -> Any:
-    return _apply("sign", a) * _apply("floor", _apply("abs", a))
-
-
-def rint(a: Any) -> Any:
-    """To the nearest whole number, ties to the even one."""
-    up = _apply("floor", a + 0.5)
-    odd = up - 2.0 * _apply("floor", up / 2.0)
-    return select((up - a == 0.5) & (odd == 1.0), up - 1.0, up)
-
-
-def floor_divide(a: Any, b: Any) -> Any:
-    return _apply("floor", a / b)
-
-
-def mod(a: Any, b: Any) -> Any:
-    """The remainder with the sign of `b`; at a jump, rounding decides on which side it lies."""
-    return a - b * _apply("floor", a / b)
-
-
-def fmod(a: Any, b: Any) -> Any:
-    """The remainder with the sign of `a`."""
-    return a - b * trunc(a / b)
-
-
-# powers, exponentials, logarithms
-
-
 def cbrt(a: Any) -> Any:
-    return _apply("sign", a) * binary("pow", _apply("abs", a), 1.0 / 3.0)
+    return apply("sign", a) * binary("pow", apply("abs", a), 1.0 / 3.0)
+
+
+def _add(a: Any, b: Any) -> Any:
+    return a + b if isinstance(a, Sym) else b.__radd__(a)
+
+
+def _subtract(a: Any, b: Any) -> Any:
+    return a - b if isinstance(a, Sym) else b.__rsub__(a)
 
 
 def square(a: Any) -> Any:
@@ -81,54 +36,6 @@ def reciprocal(a: Any) -> Any:
     return 1.0 / a
 
 
-def exp2(a: Any) -> Any:
-    return binary("pow", 2.0, a)
-
-
-def log2(a: Any) -> Any:
-    return _apply("log", a) / log(2.0)
-
-
-def expm1(a: Any) -> Any:
-    """exp(a) − 1 without cancellation, as 2 sinh(a/2) exp(a/2)."""
-    return 2.0 * _apply("sinh", a / 2.0) * _apply("exp", a / 2.0)
-
-
-def log1p(a: Any) -> Any:
-    """log(1 + a) without cancellation: near zero 2 artanh(a/(2 + a)), by its series."""
-    s = a / (2.0 + a)
-    near = 2.0 * s * _polynomial(power(s, 2), [1 / (2 * k + 1) for k in range(8)])
-    return select(_apply("abs", a) < 0.1, near, _apply("log", 1.0 + a))
-
-
-def logaddexp(a: Any, b: Any) -> Any:
-    return binary("max", a, b) + log1p(_apply("exp", -_apply("abs", a - b)))
-
-
-def logaddexp2(a: Any, b: Any) -> Any:
-    return log2(binary("pow", 2.0, a) + binary("pow", 2.0, b))
-
-
-# hyperbolic inverses
-
-
-def arcsinh(a: Any) -> Any:
-    size = _apply("abs", a)
-    return _apply("sign", a) * log1p(size + size * size / (1.0 + _apply("sqrt", size * size + 1.0)))
-
-
-def arccosh(a: Any) -> Any:
-    over = a - 1.0
-    return log1p(over + _apply("sqrt", over * (a + 1.0)))
-
-
-def arctanh(a: Any) -> Any:
-    return 0.5 * log1p(2.0 * a / (1.0 - a))
-
-
-# others
-
-
 def sinc(a: Any) -> Any:
     """sin(πa)/(πa); near zero by its series, whose derivative does not cancel."""
     angle = pi * a
@@ -136,8 +43,8 @@ def sinc(a: Any) -> Any:
     for k in range(1, 8):
         factorial *= -(2 * k) * (2 * k + 1)
         coefficients.append(1.0 / factorial)
-    near = _polynomial(power(angle, 2), coefficients)
-    return select(_apply("abs", angle) < 0.5, near, _apply("sin", angle) / angle)
+    near = polynomial(power(angle, 2), coefficients)
+    return select(apply("abs", angle) < 0.5, near, apply("sin", angle) / angle)
 
 
 def heaviside(a: Any, at_zero: Any) -> Any:
@@ -145,7 +52,7 @@ def heaviside(a: Any, at_zero: Any) -> Any:
 
 
 def copysign(a: Any, b: Any) -> Any:
-    size = _apply("abs", a)
+    size = apply("abs", a)
     return select(b < 0.0, -size, size)
 
 
@@ -168,11 +75,11 @@ def isnan(a: Any) -> Any:
 
 
 def isfinite(a: Any) -> Any:
-    return _apply("abs", a) < float("inf")
+    return apply("abs", a) < float("inf")
 
 
 def isinf(a: Any) -> Any:
-    return _apply("abs", a) == float("inf")
+    return apply("abs", a) == float("inf")
 
 
 def _scaled(factor: float) -> Any:
@@ -209,8 +116,8 @@ ELEMENTARY: dict[str, Any] = {
     "conjugate": lambda a: a,
     "absolute": _unary("abs"),
     "fabs": _unary("abs"),
-    "add": _binary("add"),
-    "subtract": _binary("sub"),
+    "add": _add,
+    "subtract": _subtract,
     "multiply": _binary("mul"),
     "divide": _binary("div"),
     "power": power,
@@ -232,24 +139,16 @@ ELEMENTARY: dict[str, Any] = {
     **{f"{kind}_xor": _xor for kind in ("logical", "bitwise")},
     "logical_not": _unary("not"),
     "invert": _unary("not"),
-    "ceil": ceil,
-    "trunc": trunc,
-    "rint": rint,
-    "floor_divide": floor_divide,
-    "remainder": mod,
-    "fmod": fmod,
+    "ceil": rounding.ceil,
+    "trunc": rounding.trunc,
+    "rint": rounding.rint,
+    "floor_divide": rounding.floor_divide,
+    "remainder": rounding.mod,
+    "fmod": rounding.fmod,
     "cbrt": cbrt,
     "square": square,
     "reciprocal": reciprocal,
-    "exp2": exp2,
-    "log2": log2,
-    "expm1": expm1,
-    "log1p": log1p,
-    "logaddexp": logaddexp,
-    "logaddexp2": logaddexp2,
-    "arcsinh": arcsinh,
-    "arccosh": arccosh,
-    "arctanh": arctanh,
+    **{name: getattr(logarithms, name) for name in logarithms.__all__},
     "heaviside": heaviside,
     "copysign": copysign,
     "isnan": isnan,

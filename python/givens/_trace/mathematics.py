@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from givens._trace import elementary
+from givens._trace import rounding
 from givens._trace.array import has_symbols
 from givens._trace.choice import isclose
 from givens._trace.elementary import ELEMENTARY
@@ -41,7 +41,7 @@ def _hypot(*coordinates: Any) -> Any:
 
 
 def _remainder(x: Any, y: Any) -> Any:
-    return x - y * elementary.rint(x / y)
+    return x - y * rounding.rint(x / y)
 
 
 _NAMES = {
@@ -66,7 +66,7 @@ _TABLE: dict[str, Callable[..., Any]] = {
     "sumprod": lambda p, q: _total(a * b for a, b in zip(p, q, strict=True)),
     "isclose": lambda a, b, *, rel_tol=1e-9, abs_tol=0.0: isclose(a, b, rel_tol, abs_tol),
     "remainder": _remainder,
-    "modf": lambda x: (x - elementary.trunc(x), elementary.trunc(x)),
+    "modf": lambda x: (x - rounding.trunc(x), rounding.trunc(x)),
 }
 
 

@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 
 from givens._trace.array import SymArray, boxed, plain, unboxed
-from givens._trace.refuse import refuse, refuse_function
-from givens._trace.symbol import is_symbol
+from givens._trace.refuse import refuse_argument, refuse_function
+from givens._trace.symbol import is_condition, is_symbol, select
 from givens._trace.universal import elementwise
 
 __all__ = ["REDUCTIONS"]
@@ -25,6 +25,16 @@ _ALL = _pairwise("logical_and", True)
 _ANY = _pairwise("logical_or", False)
 
 
+def _counted(a: Any) -> Any:
+    """Conditions as numbers: a sum counts them, where `+` between two is their or."""
+    objects = plain(a)
+    if not any(is_condition(value) for value in objects.flat):
+        return objects
+    return plain([select(value, 1.0, 0.0) if is_condition(value) else value for value in objects.flat]).reshape(
+        objects.shape
+    )
+
+
 def _fold(name: str, fold: np.ufunc) -> Any:
     def reduction(
         a: Any,
@@ -35,12 +45,7 @@ def _fold(name: str, fold: np.ufunc) -> Any:
         initial: Any = None,
         where: Any = True,
     ) -> Any:
-        if where is not True or out is not None:
-            raise refuse(
-                f"numpy.{name}(…, {'out' if where is True else 'where'}=…) has no expression here",
-                "reduce np.where(condition, a, neutral) and assign the result",
-            )
-        objects = plain(a)
+        objects = _counted(a) if fold is np.add else plain(a)
         if axis is None and not keepdims:
             objects, axis = objects.ravel(), 0
         result = unboxed(fold.reduce(objects, axis=axis, keepdims=bool(keepdims)))
@@ -55,7 +60,7 @@ def _fold(name: str, fold: np.ufunc) -> Any:
 
 def _running(name: str, fold: np.ufunc) -> Any:
     def accumulation(a: Any, axis: Any = None, dtype: Any = None, out: Any = None) -> Any:
-        objects = plain(a)
+        objects = _counted(a) if fold is np.add else plain(a)
         if axis is None:
             objects, axis = objects.ravel(), 0
         return unboxed(fold.accumulate(objects, axis=axis))
@@ -80,12 +85,15 @@ def mean(a: Any, axis: Any = None, dtype: Any = None, out: Any = None, keepdims:
 
 
 def average(a: Any, axis: Any = None, weights: Any = None, returned: bool = False, *, keepdims: Any = False) -> Any:
-    if weights is None or returned or keepdims:
+    if returned:
+        raise refuse_argument("numpy.average", "returned")
+    if weights is None:
         return mean(a, axis, keepdims=keepdims)
     a, weights = boxed(a), boxed(weights)
     if weights.shape != a.shape:
         weights = weights.reshape([-1 if k == axis % a.ndim else 1 for k in range(a.ndim)])
-    return _sum(a * weights, axis=axis) / _sum(weights * np.ones(a.shape), axis=axis)
+    total = _sum(weights * np.ones(a.shape), axis=axis, keepdims=keepdims)
+    return _sum(a * weights, axis=axis, keepdims=keepdims) / total
 
 
 def var(a: Any, axis: Any = None, dtype: Any = None, out: Any = None, ddof: float = 0, keepdims: Any = False) -> Any:
@@ -149,6 +157,7 @@ def count_nonzero(a: Any, axis: Any = None, *, keepdims: bool = False) -> Any:
 REDUCTIONS: dict[str, Any] = {
     "sum": _sum,
     "prod": _fold("prod", np.multiply),
+    "logaddexp.reduce": _fold("logaddexp", _pairwise("logaddexp", -np.inf)),
     **dict.fromkeys(("max", "amax"), _max),
     **dict.fromkeys(("min", "amin"), _min),
     "all": _fold("all", _ALL),

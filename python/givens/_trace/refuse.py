@@ -8,7 +8,15 @@ from contextvars import ContextVar
 from givens._trace.place import Place, here
 from givens.errors import TraceError
 
-__all__ = ["failures", "refuse", "refuse_branch", "refuse_conversion", "refuse_function"]
+__all__ = [
+    "failures",
+    "refuse",
+    "refuse_argument",
+    "refuse_branch",
+    "refuse_conversion",
+    "refuse_filling",
+    "refuse_function",
+]
 
 #: The first refusal while a function is traced: one that the function itself caught is raised all the same.
 failures: ContextVar[list[TraceError] | None] = ContextVar("failures", default=None)
@@ -69,8 +77,10 @@ def refuse_branch() -> TraceError:
     return refuse("a value that is not known yet is taken as true or false", _WHERE, place)
 
 
+#: An assignment to an element, or in place: the name of the array.
+_FILLED = re.compile(r"([A-Za-z_][\w.]*)\s*(?:\[[^=]*\]\s*(?:[-+*/%@]|\*\*|//)?|(?:[-+*/%@]|\*\*|//))=(?!=)")
 _CONVERSIONS = {
-    "float": "leave the conversion out; fill arrays made by np.zeros or np.array inside the function",
+    "float": "leave the conversion out; math.floor, math.sqrt and their kin take such values as they are",
     "int": "np.floor(x) or np.trunc(x) stay expressions",
     "complex": "write real and imaginary parts as two numbers",
     "index": "an index, a size or a count must be a number; fix it with functools.partial(function, name=number)",
@@ -81,15 +91,46 @@ _CONVERSIONS = {
 
 def refuse_conversion(kind: str, remedy: str | None = None) -> TraceError:
     """Of a symbol that was to become a plain number."""
+    if kind == "float" and "float(" not in (here().source or "") and _FILLED.search(here().source or ""):
+        return refuse_filling()
     what = {"index": "used as an index or a count", "round": "rounded to a plain number"}
     said = what.get(kind, f"turned into {'an' if kind == 'int' else 'a'} {kind}")
-    return refuse(f"a value that is not known yet is {said}", remedy or _CONVERSIONS[kind])
+    return refuse(
+        f"a value that is not known yet is {said}",
+        remedy or _CONVERSIONS.get(kind, "leave the conversion out: everything is a 64-bit float"),
+    )
+
+
+def refuse_filling() -> TraceError:
+    """Of an array made elsewhere, or by arithmetic on numbers, that was to take a symbol."""
+    place = here()
+    found = _FILLED.search(place.source or "")
+    name = found.group(1) if found is not None else "y"
+    return refuse(
+        f"{'an array of plain numbers' if found is None else f'`{name}`, an array of plain numbers,'} was to take a value that is not known yet",
+        f"write {name} = np.array({name}) before: what np.array, np.zeros and their kin make inside the function takes it",
+        place,
+    )
 
 
 def refuse_function(name: str, remedy: str | None = None) -> TraceError:
     """Of a function that has no expression."""
     return refuse(f"{name} has no expression here", remedy or _no_expression(name))
 
+
+def refuse_argument(name: str, argument: str) -> TraceError:
+    """Of an argument of a function that would not be honoured."""
+    return refuse(
+        f"{name}(…, {argument}=…) has no expression here", _ARGUMENTS.get(argument, f"leave `{argument}` out")
+    )
+
+
+_ARGUMENTS = {
+    "where": "write np.where(condition, yes, no)",
+    "dtype": "leave `dtype` out: everything is a 64-bit float; np.floor(x) and np.trunc(x) stay expressions",
+    "out": "assign the result: y[:] = …",
+    "copy": "assign the result: y[:] = np.nan_to_num(y)",
+}
 
 _INSTEAD = {
     "numpy.sort": "write np.minimum and np.maximum of the elements",

@@ -9,7 +9,7 @@ import numpy as np
 from givens._trace.refuse import refuse, refuse_branch, refuse_conversion
 from givens._trace.tape import Tape
 
-__all__ = ["Scalar", "Sym", "binary", "is_number", "is_symbol", "power", "select", "unary"]
+__all__ = ["Scalar", "Sym", "binary", "is_condition", "is_number", "is_symbol", "power", "select", "unary"]
 
 #: What stands in a traced array: a symbol or a plain number.
 Scalar = Any
@@ -55,12 +55,17 @@ class Sym:
     # arithmetic
 
     def __add__(self, other: Any) -> Any:
-        return binary("add", self, other)
+        # of two conditions, NumPy's sum is their or
+        return binary("or" if is_condition(self) and is_condition(other) else "add", self, other)
 
     def __radd__(self, other: Any) -> Any:
         return binary("add", other, self)
 
     def __sub__(self, other: Any) -> Any:
+        if is_condition(self) and is_condition(other):
+            raise refuse(
+                "NumPy takes no condition from another", "write a ^ b, or np.where(a, 1, 0) - np.where(b, 1, 0)"
+            )
         return binary("sub", self, other)
 
     def __rsub__(self, other: Any) -> Any:
@@ -212,8 +217,9 @@ class Sym:
         return self
 
     def astype(self, dtype: Any, **_: Any) -> Any:
-        if np.dtype(dtype).kind in "iu":
-            raise refuse_conversion("int")
+        from givens._trace.array import check_held
+
+        check_held(dtype)
         return self
 
     def __copy__(self) -> Sym:
@@ -226,6 +232,14 @@ class Sym:
 def is_symbol(value: object) -> bool:
     """Whether this is a symbol."""
     return isinstance(value, Sym)
+
+
+_CONDITIONS = frozenset(("less", "less_equal", "equal", "and", "or", "not"))
+
+
+def is_condition(value: object) -> bool:
+    """Whether this symbol is true or false."""
+    return isinstance(value, Sym) and value.tape.instructions[value.node][0] in _CONDITIONS
 
 
 def is_number(value: object) -> bool:

@@ -9,6 +9,7 @@ import numpy as np
 
 from givens._trace.arguments import Arguments
 from givens._trace.array import SymArray, boxed
+from givens._trace.left_behind import Stores
 from givens._trace.place import of_function, of_traceback
 from givens._trace.refuse import failures, refuse
 from givens._trace.symbol import Sym
@@ -26,6 +27,25 @@ def trace(function: Callable[..., Any], arguments: Arguments, sizes: Sizes, name
     `names` are those of its results, where it may answer with a table by name.
     """
     tape = Tape()
+    stores = Stores(function)
+    try:
+        traced = _traced_twice(function, arguments, sizes, tape, names)
+    except BaseException:
+        stores.polluted()
+        raise
+    kept = stores.polluted()
+    if kept is None:
+        return traced
+    raise refuse(
+        f"it keeps a value that is not known yet in `{kept}`",
+        "keep nothing between calls: fill a cache before, compute it outside, or pass trace=False",
+        of_function(function),
+    )
+
+
+def _traced_twice(
+    function: Callable[..., Any], arguments: Arguments, sizes: Sizes, tape: Tape, names: tuple[str, ...]
+) -> Traced:
     first = _called(function, arguments, sizes, tape, names)
     second = _called(function, arguments, sizes, tape, names)
     if first.shape != second.shape or _nodes(tape, first) != _nodes(tape, second):

@@ -17,14 +17,15 @@ from typing import Any
 
 from givens._trace.faces import Face, face_of_value, faced_builtins
 
-__all__ = ["transplanted"]
+__all__ = ["LONGEST", "is_foreign", "names_in", "transplanted"]
 
 #: Packages whose code is left as it is.
 _FOREIGN = frozenset(sys.stdlib_module_names) | {
     *("numpy", "scipy", "givens", "pandas", "polars", "pyarrow", "xarray", "matplotlib", "sympy", "numba", "llvmlite"),
     *("jax", "torch", "tensorflow", "pytest", "hypothesis", "IPython"),
 }
-_LONGEST = 1000
+#: The longest list or table that is looked through.
+LONGEST = 1000
 
 
 def transplanted(function: Any) -> Any:
@@ -32,16 +33,18 @@ def transplanted(function: Any) -> Any:
     return _Transplant().of(function)
 
 
-def _is_foreign(module: object) -> bool:
+def is_foreign(module: object) -> bool:
+    """Whether code of this module is left as it is."""
     # what stands for SymPy's expressions leads to a function made by SymPy
     return isinstance(module, str) and module.partition(".")[0] in _FOREIGN and module != "givens._symbolic"
 
 
-def _names(code: CodeType) -> Iterator[str]:
+def names_in(code: CodeType) -> Iterator[str]:
+    """The global names and the attributes that code asks for, with those of the functions inside it."""
     yield from code.co_names
     for constant in code.co_consts:
         if isinstance(constant, CodeType):
-            yield from _names(constant)
+            yield from names_in(constant)
 
 
 class _Transplant:
@@ -65,19 +68,19 @@ class _Transplant:
     def copied(self, value: Any) -> Any:
         if isinstance(value, FunctionType):
             module = value.__module__ or value.__globals__.get("__name__")
-            return value if _is_foreign(module) else self.function(value)
+            return value if is_foreign(module) else self.function(value)
         if isinstance(value, MethodType):
             return MethodType(self.of(value.__func__), self.of(value.__self__))
         if isinstance(value, functools.partial):
             return functools.partial(self.of(value.func), *map(self.of, value.args), **self.mapped(value.keywords))
         if isinstance(value, ModuleType):
-            ours = getattr(value, "__file__", None) and not _is_foreign(value.__name__)
+            ours = getattr(value, "__file__", None) and not is_foreign(value.__name__)
             return Face(value, self.of) if ours else value
-        if type(value) in (list, tuple) and len(value) <= _LONGEST:
+        if type(value) in (list, tuple) and len(value) <= LONGEST:
             parts = [self.of(part) for part in value]
             changed = any(part is not old for part, old in zip(parts, value, strict=True))
             return type(value)(parts) if changed else value
-        if type(value) is dict and len(value) <= _LONGEST:
+        if type(value) is dict and len(value) <= LONGEST:
             mapping = self.mapped(value)
             return mapping if any(mapping[key] is not value[key] for key in value) else value
         wrapped = getattr(value, "py_func", None) or getattr(value, "__wrapped__", None)
@@ -99,7 +102,7 @@ class _Transplant:
         new.__qualname__ = value.__qualname__
         new.__defaults__ = None if value.__defaults__ is None else tuple(map(self.of, value.__defaults__))
         new.__kwdefaults__ = self.mapped(value.__kwdefaults__ or {})
-        for name in set(_names(value.__code__)) & value.__globals__.keys():
+        for name in set(names_in(value.__code__)) & value.__globals__.keys():
             namespace[name] = self.of(value.__globals__[name])
         for cell, old in zip(cells, value.__closure__ or (), strict=True):
             if cell is not old and not _holds(cell) and _holds(old):
@@ -120,11 +123,11 @@ class _Transplant:
 
     def type(self, cls: type) -> type:
         """A subclass with the same methods, transplanted."""
-        if type(cls) not in (type, ABCMeta) or _is_foreign(cls.__module__):
+        if type(cls) not in (type, ABCMeta) or is_foreign(cls.__module__):
             return cls
         self.keep(cls, cls)
         namespace: dict[str, Any] = {"__slots__": (), "__module__": cls.__module__, "__qualname__": cls.__qualname__}
-        bases = [base for base in reversed(cls.__mro__) if not _is_foreign(base.__module__)]
+        bases = [base for base in reversed(cls.__mro__) if not is_foreign(base.__module__)]
         for name, member in (item for base in bases for item in vars(base).items()):
             if isinstance(member, FunctionType) and name not in ("__new__", "__init_subclass__"):
                 namespace[name] = self.of(member)
@@ -142,7 +145,7 @@ class _Transplant:
     def object(self, value: Any) -> Any:
         """A shallow copy whose methods are transplanted."""
         cls = type(value)
-        if _is_foreign(cls.__module__):
+        if is_foreign(cls.__module__):
             return value
         new = self.of(cls)
         if new is cls:

@@ -7,17 +7,17 @@ from typing import Any
 
 import numpy as np
 
-from givens._trace import elementary
+from givens._trace import rounding
 from givens._trace.array import SymArray, boxed, has_symbols, plain, rank, unboxed
 from givens._trace.elementary import ELEMENTARY
-from givens._trace.refuse import refuse, refuse_function
+from givens._trace.refuse import refuse_argument, refuse_filling, refuse_function
 from givens._trace.symbol import Sym, is_symbol
 
-__all__ = ["call_ufunc", "elementwise", "method_of"]
+__all__ = ["call_ufunc", "elementwise", "into", "is_double", "mapped", "method_of"]
 
 _TWO_RESULTS = {
-    "divmod": (elementary.floor_divide, elementary.mod),
-    "modf": (lambda a: a - elementary.trunc(a), elementary.trunc),
+    "divmod": (rounding.floor_divide, rounding.mod),
+    "modf": (lambda a: a - rounding.trunc(a), rounding.trunc),
 }
 
 
@@ -50,12 +50,19 @@ def call_ufunc(ufunc: np.ufunc, method: str, inputs: tuple[Any, ...], kwargs: di
     name = ufunc.__name__
     out = kwargs.pop("out", None)
     where = kwargs.pop("where", True)
-    for ignored in ("dtype", "casting", "order", "subok"):
+    for ignored in ("casting", "order", "subok"):
         kwargs.pop(ignored, None)
+    if not is_double(kwargs.pop("dtype", None)):
+        raise refuse_argument(f"numpy.{name}", "dtype")
     if where is not True:
-        raise refuse(f"numpy.{name}(…, where=…) has no expression here", "write np.where(condition, yes, no)")
+        raise refuse_argument(f"numpy.{name}", "where")
     result = _called(ufunc, name, method, inputs, kwargs)
-    return _into(out, result) if out is not None else result
+    return into(out, result) if out is not None else result
+
+
+def is_double(dtype: Any) -> bool:
+    """Whether an argument asks for 64-bit floats, which is all that there is here, or for nothing."""
+    return dtype is None or np.dtype(dtype) == np.float64
 
 
 def _called(ufunc: np.ufunc, name: str, method: str, inputs: tuple[Any, ...], kwargs: dict[str, Any]) -> Any:
@@ -71,7 +78,7 @@ def _called(ufunc: np.ufunc, name: str, method: str, inputs: tuple[Any, ...], kw
         a, b = (boxed(value) for value in inputs)
         return elementwise(name, a.reshape(a.shape + (1,) * b.ndim), b)
     fold = {"add": "sum", "multiply": "prod", "maximum": "max", "minimum": "min"}
-    fold |= {"logical_and": "all", "logical_or": "any"}
+    fold |= {"logical_and": "all", "logical_or": "any", "logaddexp": "logaddexp.reduce"}
     running = {"add": "cumsum", "multiply": "cumprod"}
     if method == "reduce" and name in fold:
         kwargs.setdefault("axis", 0)
@@ -86,17 +93,15 @@ def _only(ufunc: np.ufunc, k: int) -> Any:
     return lambda *values: ufunc(*values)[k]
 
 
-def _into(out: Any, result: Any) -> Any:
+def into(out: Any, result: Any) -> Any:
+    """Writes a result where `out` says, and gives that."""
     targets = out if isinstance(out, tuple) else (out,)
     results = result if isinstance(result, tuple) else (result,)
     for target, value in zip(targets, results, strict=True):
         if target is None:
             continue
         if not isinstance(target, SymArray) and target.dtype != object and has_symbols(value):
-            raise refuse(
-                "an array of plain numbers was to take a value that is not known yet",
-                "make it inside the function with np.zeros or np.array, or write y = y + … in place of y += …",
-            )
+            raise refuse_filling()
         target[...] = plain(value) if rank(value) else value
     return out[0] if isinstance(out, tuple) and len(out) == 1 else out
 

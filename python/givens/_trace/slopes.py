@@ -1,0 +1,92 @@
+"""Whether the derivatives of a trace are those of the function: where it is smooth, they are its difference quotients."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+
+import numpy as np
+import numpy.typing as npt
+
+from givens._native import Choice, Filter, Graph, Model
+from givens._trace.tape import Tape
+from givens._trace.traced import Sizes, Traced
+from givens.errors import GivensError
+
+__all__ = ["Slopes", "wrong_slope"]
+
+Array = npt.NDArray[np.float64]
+
+#: The larger one of two steps, for numbers of size one; the other is a quarter of it.
+_STEP = 2.0**-20
+#: How far four quotients of a smooth function may lie apart, and how far a derivative from them.
+_SMOOTH, _RELATIVE = 1e-3, 1e-2
+
+
+class Slopes:
+    """The derivatives that a filter works with, read off one update of an extended Kalman filter.
+
+    With the states themselves measured beside the function and a unit covariance, the covariance of the innovation
+    holds the derivatives.
+    """
+
+    def __init__(self, traced: Traced, sizes: Sizes, dt: float) -> None:
+        n, self._given = sizes.states, len(traced.nodes)
+        instructions = [("constant", dt.hex()) if op == ("step",) else op for op in traced.tape.instructions]
+        graph = Graph()
+        states, zero = [graph.state(i) for i in range(n)], graph.constant(0.0)
+        measures = [*Tape(instructions).lay_into(graph, traced.nodes), *states]
+        columns = [f"z{k}" for k in range(len(measures))]
+        sensor = {
+            "name": "slopes",
+            "columns": columns,
+            "measures": measures,
+            "angles": [None] * len(columns),
+            "std": [graph.constant(1.0)] * len(columns),
+        }
+        names, values = [f"x{i}" for i in range(n)], traced.arguments.values.tolist()
+        noise = [zero] * n**2
+        self._model = Model.discrete(graph, names, sizes.controls, values, states, noise, None, [sensor])  # type: ignore[list-item]
+        self._choice = Choice("ekf", {}, "discrete")
+        self._n, self._controls = n, sizes.controls
+
+    def at(self, t: float, x: Array, u: Array, p: Array) -> Array | None:
+        """∂f/∂x, one row for each result; None where it is not finite."""
+        model = self._model.with_parameters(p) if p.size else self._model
+        try:
+            filtering = Filter.start(model, self._choice, x, np.ones(self._n), t)
+            if self._controls:
+                filtering.set_controls(u)
+            filtering.update(np.zeros(self._given + self._n))
+            return filtering.innovation_cov[: self._given, self._given :]
+        except GivensError:
+            return None
+
+
+def wrong_slope(
+    function: Callable[[Array], Array], x: Array, slopes: Array, directions: Sequence[Array]
+) -> tuple[int, Array, float, float] | None:
+    """The first result whose derivative in one of the directions is another: which, where, its own and that of `slopes`."""
+    here = function(x)
+    for direction in directions:
+        size = _STEP * max(1.0, float(np.abs(x[direction != 0]).max(initial=0.0)))
+        quotients = np.array(list(_quotients(function, x, here, direction, size)))
+        with np.errstate(all="ignore"):
+            own, found = quotients.mean(axis=0), slopes @ direction
+            noise = 256 * np.finfo(float).eps * np.abs(here) / size
+            smooth = np.ptp(quotients, axis=0) <= _SMOOTH * np.abs(quotients).max(axis=0) + noise
+            # a covariance brings them, rounded as its largest entries are
+            room = 4 * noise + 1e-9 * np.abs(slopes).max(axis=1) + 1e-12
+            apart = np.abs(found - own) > _RELATIVE * np.maximum(np.abs(found), np.abs(own)) + room
+        wrong = np.flatnonzero(smooth & apart & np.isfinite(own))
+        if wrong.size:
+            k = int(wrong[0])
+            return k, direction, float(own[k]), float(found[k])
+    return None
+
+
+def _quotients(
+    function: Callable[[Array], Array], x: Array, here: Array, direction: Array, size: float
+) -> Iterator[Array]:
+    for step in (size, -size, size / 4, -size / 4):
+        with np.errstate(all="ignore"):
+            yield (function(x + step * direction) - here) / step

@@ -81,7 +81,7 @@ def array_of(value: Any) -> np.ndarray[Any, Any]:
 def dimensions(value: Any) -> int:
     """How many an array of this would have; -1 if its parts have different lengths."""
     try:
-        return int(np.ndim(value))
+        return int(np.ndim(unmasked(value)))
     except ValueError:
         return -1
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from givens._arrays import dimensions
+from givens._arrays import dimensions, unmasked
 from givens._frames import is_frame
 from givens._join import Joined
 from givens._names import known_name
@@ -32,6 +32,7 @@ class Given:
 
 def split(joined: Joined, t: Any, z: Any, u: Any, noise: Any) -> tuple[list[Given], bool]:
     """One track, or several: an array (runs, rows, d), or a list of arrays or tables."""
+    z, u, noise = unmasked(z), unmasked(u), unmasked(noise)
     if isinstance(z, Mapping):
         several = len(z) > 0 and all(dimensions(value) == 3 for value in z.values())
         each: list[Any] = _by_sensor(z) if several else []
@@ -57,7 +58,8 @@ def split(joined: Joined, t: Any, z: Any, u: Any, noise: Any) -> tuple[list[Give
 
 
 def _parts(array: Any) -> list[Any]:
-    """An array along its first dimension; masks stay with their parts."""
+    """An array along its first dimension."""
+    array = unmasked(array)
     if hasattr(array, "to_numpy") and not isinstance(array, np.ndarray):
         array = array.to_numpy()
     return list(array)

@@ -19,10 +19,11 @@ from givens.consistency import Consistency
 from givens.errors import GivensError, InputError, MethodError, ModelError, StepError, TraceError
 from givens.estimates import Estimates
 from givens.gaussian import Gaussian
+from givens.merging import merge
 from givens.model_file import ModelFile, parse_model, read_model
 from givens.online import Filter
 from givens.registry import Method, methods
-from givens.running import filter, merge, smooth
+from givens.running import filter, smooth
 from givens.sde import Sde
 from givens.sensor import Sensor
 from givens.simulation import Simulated, simulate

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import datetime
 import sys
 from collections.abc import Sequence
 from typing import Any
@@ -9,11 +10,25 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from givens.errors import InputError
+from givens.errors import GivensError, InputError
 
-__all__ = ["Array", "frozen", "is_masked", "numbers", "shape_error", "square", "vector"]
+__all__ = [
+    "Array",
+    "array_of",
+    "dimensions",
+    "frozen",
+    "is_null",
+    "numbers",
+    "shape_error",
+    "square",
+    "unmasked",
+    "vector",
+]
 
 Array = npt.NDArray[np.float64]
+
+#: Among values of these types nothing is masked.
+_PLAIN = {bool, int, float, str, type(None)}
 
 
 def frozen(array: Array) -> Array:
@@ -29,24 +44,93 @@ def is_masked(value: object) -> bool:
     return masked is not None and isinstance(value, masked.MaskedArray)
 
 
-def numbers(argument: str, value: Any) -> Array:
-    """Anything like an array as 64-bit floats; what a mask hides is NaN."""
+def is_null(value: object) -> bool:
+    """Whether this one value is missing: None, NaN, NaT, or the null of another library."""
+    if value is None:
+        return True
+    try:
+        return bool(value != value)
+    except (TypeError, ValueError):
+        return type(value).__name__ == "NAType"
+
+
+def unmasked(value: Any) -> Any:
+    """The same without masks, in lists as well: what they hide is NaN, of dates NaT, of other things None."""
     if is_masked(value):
-        return np.asarray(value.astype(np.float64).filled(np.nan))
+        if value.dtype.kind in "biuf":
+            return np.asarray(value.astype(np.float64).filled(np.nan))
+        if value.dtype.kind in "Mm":
+            return np.asarray(value.filled(np.array("NaT", dtype=value.dtype)))
+        own = np.array(value.data, dtype=object)
+        own[np.ma.getmaskarray(value)] = None
+        return own
+    if isinstance(value, (list, tuple)) and "numpy.ma" in sys.modules and not set(map(type, value)) <= _PLAIN:
+        parts = [unmasked(part) for part in value]
+        return value if all(new is old for new, old in zip(parts, value, strict=True)) else parts
+    return value
+
+
+def array_of(value: Any) -> np.ndarray[Any, Any]:
+    """Anything like an array as one, of whatever it holds; parts of different lengths are a ValueError."""
+    value = unmasked(value)
     if hasattr(value, "to_numpy") and not isinstance(value, np.ndarray):
         value = value.to_numpy()
+    return np.asarray(value)
+
+
+def dimensions(value: Any) -> int:
+    """How many an array of this would have; -1 if its parts have different lengths."""
     try:
-        array = np.asarray(value)
-        if array.dtype.kind == "c":
-            raise TypeError("complex numbers")
-        return np.asarray(array, dtype=np.float64)
-    except (TypeError, ValueError) as error:
-        said = "parts of different lengths" if "inhomogeneous" in str(error) else "something else"
-        raise InputError(
-            f"`{argument}` is not an array of real numbers: it holds {said}",
-            argument=argument,
-            remedy="give a list of numbers, or a NumPy array of floats",
-        ) from None
+        return int(np.ndim(unmasked(value)))
+    except ValueError:
+        return -1
+
+
+#: What an array holds in place of real numbers, and what to do about it.
+_OTHERS = {
+    "M": ("dates", 'give seconds: (dates - dates[0]) / np.timedelta64(1, "s")'),
+    "m": ("durations", 'give seconds: durations / np.timedelta64(1, "s")'),
+    "c": ("complex numbers", "give their real parts, np.real(…), if that is all they have"),
+    **dict.fromkeys("UST", ("text", "give a list of numbers, or a NumPy array of floats")),
+}
+
+
+def numbers(argument: str, value: Any, called: str | None = None) -> Array:
+    """Anything like an array as 64-bit floats; what is null, or hidden by a mask, is NaN.
+
+    `called` is what errors call it, if that is not the argument itself.
+    """
+    said, remedy = "something else", "give a list of numbers, or a NumPy array of floats"
+    try:
+        array = array_of(value)
+        if array.dtype.kind == "O":
+            array = _of_objects(array)
+        if array.dtype.kind in "biuf":
+            return np.asarray(array, dtype=np.float64)
+        said, remedy = _OTHERS.get(array.dtype.kind, (said, remedy))
+    except GivensError:
+        raise
+    except (TypeError, ValueError, OverflowError) as error:
+        said = "parts of different lengths" if "inhomogeneous" in str(error) else said
+    raise InputError(
+        f"{called or f'`{argument}`'} is not an array of real numbers: it holds {said}",
+        argument=argument,
+        remedy=remedy,
+    )
+
+
+def _of_objects(array: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
+    """Single values without their nulls, as numbers if they are such, as what they are if not."""
+    flat = [np.nan if is_null(value) else value for value in array.flat]
+    for value in flat:
+        kind = np.asarray(value).dtype.kind
+        if isinstance(value, datetime.timedelta):
+            kind = "m"
+        elif isinstance(value, datetime.date):
+            kind = "M"
+        if kind not in "biufO":
+            return np.empty(0, dtype={"M": "M8[s]", "m": "m8[s]"}.get(kind, kind))
+    return np.array([float(value) for value in flat]).reshape(array.shape)
 
 
 def shape_error(argument: str, found: Sequence[int], wanted: str, remedy: str | None = None) -> InputError:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from givens._lazy import wanted
+from givens.errors import InputError
 
 if TYPE_CHECKING:
     from givens.batch import Batch
@@ -14,38 +16,90 @@ if TYPE_CHECKING:
 
 __all__ = ["batch_to_pandas", "batch_to_polars", "to_pandas", "to_polars", "to_xarray"]
 
+_LAST = ("nis", "nis_dof", "log_likelihood")
 
-def _columns(one: Estimates) -> dict[str, Any]:
-    """The columns of the command's CSV."""
-    columns: dict[str, Any] = {"time": np.asarray(one.time)}
-    columns |= {name: one.mean[:, i] for i, name in enumerate(one.state)}
-    columns |= {f"{name}_std": one.std[:, i] for i, name in enumerate(one.state)}
-    return columns | {"nis": one.nis, "nis_dof": one.nis_dof, "log_likelihood": one.log_likelihood}
+
+def _columns(runs: Sequence[Estimates], first: Iterable[str] = ()) -> dict[str, Any]:
+    """The columns of the command's CSV, of runs below each other; `first` are those that the caller adds."""
+    state = runs[0].state
+    _distinct(state, ("time", *first))
+    # one array for each column: tables of single runs would cost more than all their rows
+    mean, std = (np.concatenate([getattr(one, name) for one in runs]) for name in ("mean", "std"))
+    columns: dict[str, Any] = {"time": np.concatenate([one.time for one in runs])}
+    columns |= {name: mean[:, i] for i, name in enumerate(state)}
+    columns |= {f"{name}_std": std[:, i] for i, name in enumerate(state)}
+    return columns | {name: np.concatenate([getattr(one, name) for one in runs]) for name in _LAST}
+
+
+def _distinct(state: Sequence[str], first: Iterable[str]) -> None:
+    meant = {name: f"the column `{name}` of every table" for name in (*first, *_LAST)}
+    meant |= {f"{name}_std": f"the standard deviation of `{name}`" for name in state}
+    for name in state:
+        if name in meant:
+            raise InputError(
+                f"the state `{name}` and {meant[name]} would be one column",
+                argument="state",
+                component=name,
+                remedy="name the state otherwise in the model, or take the arrays: to_dict()",
+            )
+
+
+def _aware(runs: Sequence[Estimates]) -> bool:
+    return any(one.__dict__["_aware"] for one in runs)
+
+
+def _pandas(runs: Sequence[Estimates], first: Iterable[str] = ()) -> Any:
+    frame = wanted("pandas").DataFrame(_columns(runs, first))
+    if _aware(runs):
+        frame["time"] = frame["time"].dt.tz_localize("UTC")
+    return frame
+
+
+def _polars(runs: Sequence[Estimates], first: Iterable[str] = ()) -> Any:
+    polars = wanted("polars")
+    columns = _columns(runs, first)
+    if columns["time"].dtype.kind == "M" and np.datetime_data(columns["time"].dtype)[0] not in _OF_POLARS:
+        columns["time"] = columns["time"].astype("datetime64[ms]")
+    frame = polars.DataFrame(columns)
+    if _aware(runs):
+        frame = frame.with_columns(polars.col("time").dt.replace_time_zone("UTC"))
+    return frame
+
+
+#: Units of dates that polars has.
+_OF_POLARS = ("D", "ms", "us", "ns")
 
 
 def to_pandas(one: Estimates) -> Any:
     """See `Estimates.to_pandas`."""
-    return wanted("pandas").DataFrame(_columns(one)).set_index("time")
+    return _pandas([one]).set_index("time")
 
 
 def to_polars(one: Estimates) -> Any:
     """See `Estimates.to_polars`."""
-    return wanted("polars").DataFrame(_columns(one))
+    return _polars([one])
+
+
+def _names(batch: Batch) -> list[Any]:
+    """The track of each row."""
+    return [name for name, one in zip(batch.track_ids, batch, strict=True) for _ in range(len(one))]
 
 
 def batch_to_pandas(batch: Batch) -> Any:
     """See `Batch.to_pandas`."""
     pandas = wanted("pandas")
-    frames = [to_pandas(one).assign(track_id=name) for name, one in zip(batch.track_ids, batch, strict=True)]
-    return pandas.concat(frames).set_index("track_id", append=True).swaplevel() if frames else pandas.DataFrame()
+    if not len(batch):
+        return pandas.DataFrame()
+    return _pandas(batch, ("track_id",)).assign(track_id=_names(batch)).set_index(["track_id", "time"])
 
 
 def batch_to_polars(batch: Batch) -> Any:
     """See `Batch.to_polars`."""
     polars = wanted("polars")
-    names = zip(batch.track_ids, batch, strict=True)
-    frames = [to_polars(one).select(polars.lit(name).alias("track_id"), polars.all()) for name, one in names]
-    return polars.concat(frames) if frames else polars.DataFrame()
+    if not len(batch):
+        return polars.DataFrame()
+    names = polars.Series("track_id", _names(batch))
+    return _polars(batch, ("track_id",)).select(names, polars.all())
 
 
 def to_xarray(one: Estimates) -> Any:

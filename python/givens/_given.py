@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
+from givens._arrays import dimensions, unmasked
+from givens._frames import is_frame
 from givens._join import Joined
+from givens._names import known_name
 from givens.errors import InputError
 
 __all__ = ["Given", "each_of", "parameters_by_run", "split"]
@@ -29,80 +32,143 @@ class Given:
 
 def split(joined: Joined, t: Any, z: Any, u: Any, noise: Any) -> tuple[list[Given], bool]:
     """One track, or several: an array (runs, rows, d), or a list of arrays or tables."""
+    z, u, noise = unmasked(z), unmasked(u), unmasked(noise)
     if isinstance(z, Mapping):
-        several = [np.ndim(value) for value in z.values()] == [3] * len(z) and len(z) > 0
-        runs = len(next(iter(z.values()))) if several else 0
-        each: list[Any] = [{name: value[k] for name, value in z.items()} for k in range(runs)]
-    elif isinstance(z, (list, tuple)) and len(z) and (isinstance(z[0], Mapping) or np.ndim(z[0]) == 2):
+        several = len(z) > 0 and all(dimensions(value) == 3 for value in z.values())
+        each: list[Any] = _by_sensor(z) if several else []
+    elif isinstance(z, (list, tuple)) and len(z) and (isinstance(z[0], Mapping) or dimensions(z[0]) == 2):
         several, each = True, list(z)
     else:
-        several = np.ndim(z) == 3 and np.shape(z)[2] == len(joined.measures)
-        each = list(np.asarray(z)) if several else []
+        several = dimensions(z) == 3 and np.shape(z)[2] == len(joined.measures)
+        each = _parts(z) if several else []
     if not several:
         return [Given(t, z, u, noise)], False
     runs = len(each)
-    ragged = isinstance(t, (list, tuple)) and len(t) == runs and runs > 0 and np.ndim(t[0]) == 1
-    times = list(t) if ragged or np.ndim(t) == 2 else [t] * runs
+    ragged = isinstance(t, (list, tuple)) and len(t) > 0 and dimensions(t[0]) == 1
+    times = list(t) if ragged else _parts(t) if dimensions(t) == 2 else [t] * runs
     if len(times) != runs:
         raise InputError(
             f"`t` has times of {len(times)} tracks, `z` measurements of {runs}",
             argument="t",
             remedy="give one list for each",
         )
-    controls = _by_run("u", u, runs, 2)
-    noises = _noise_by_run(noise, runs)
+    controls = _by_run("u", u, runs)
+    noises = _noise_by_run(joined, noise, [len(one) if dimensions(one) == 1 else 0 for one in times])
     return [Given(times[k], each[k], controls[k], noises[k]) for k in range(runs)], True
 
 
-def _by_run(argument: str, given: Any, runs: int, own: int) -> list[Any]:
-    """One for each run, or the same for all: `own` dimensions are those of one run."""
-    if given is None or isinstance(given, Mapping):
+def _parts(array: Any) -> list[Any]:
+    """An array along its first dimension."""
+    array = unmasked(array)
+    if hasattr(array, "to_numpy") and not isinstance(array, np.ndarray):
+        array = array.to_numpy()
+    return list(array)
+
+
+def _by_sensor(z: Mapping[str, Any]) -> list[dict[str, Any]]:
+    parts = {name: _parts(value) for name, value in z.items()}
+    (first, one), *others = parts.items()
+    for name, other in others:
+        if len(other) != len(one):
+            raise InputError(
+                f"`z` has measurements of {len(one)} tracks for `{first}` and of {len(other)} for `{name}`",
+                argument="z",
+                component=name,
+                remedy="give NaN where a sensor is missing",
+            )
+    return [{name: values[k] for name, values in parts.items()} for k in range(len(one))]
+
+
+def _by_run(argument: str, given: Any, runs: int) -> list[Any]:
+    """One for each run, or the same for all; those of one run have two dimensions."""
+    if given is None or isinstance(given, Mapping) or is_frame(given):
         return [given] * runs
-    several = (isinstance(given, (list, tuple)) and len(given) == runs and np.ndim(given[0]) == own) or (
-        not isinstance(given, (list, tuple)) and np.ndim(given) == own + 1
-    )
+    listed = isinstance(given, (list, tuple))
+    several = len(given) == runs > 0 and dimensions(given[0]) == 2 if listed else dimensions(given) == 3
     if several and len(given) != runs:
-        raise InputError(f"`{argument}` is for {len(given)} tracks, `z` for {runs}", argument=argument)
-    return list(given) if several else [given] * runs
+        raise InputError(
+            f"`{argument}` is for {len(given)} tracks, `z` for {runs}", argument=argument, remedy="give one for each"
+        )
+    return _parts(given) if several else [given] * runs
 
 
-def _noise_by_run(noise: Any, runs: int) -> list[Any]:
+def _noise_by_run(joined: Joined, noise: Any, rows: list[int]) -> list[Any]:
     if noise is None:
-        return [None] * runs
-    table = noise if isinstance(noise, Mapping) else {None: noise}
-    split = {name: list(value) if len(value) == runs else [value] * runs for name, value in table.items()}
-    if None in split:
-        return split[None]
-    return [{name: values[k] for name, values in split.items()} for k in range(runs)]
+        return [None] * len(rows)
+    if not isinstance(noise, Mapping):
+        return _noises("noise", noise, len(joined.measures), rows)
+    for name in noise:
+        known_name("noise", name, tuple(joined.sensors), "sensor")
+    widths = {name: place.stop - place.start for name, place in joined.sensors.items()}
+    split = {name: _noises(f"noise[{name!r}]", value, widths[name], rows) for name, value in noise.items()}
+    return [{name: values[k] for name, values in split.items()} for k in range(len(rows))]
+
+
+def _noises(argument: str, given: Any, d: int, rows: list[int]) -> list[Any]:
+    """That of each run, or the same for all: the shape says which."""
+    runs = len(rows)
+    same = all(_is_noise(given, count, d) for count in rows)
+    try:
+        parts = _parts(given) if not is_frame(given) else []
+    except TypeError:
+        parts = []
+    several = len(parts) == runs and all(_is_noise(one, count, d) for one, count in zip(parts, rows, strict=True))
+    if same and several and runs > 1:
+        raise InputError(
+            f"`{argument}` of shape {np.shape(given)} may be one for each of {runs} tracks, or the same for all",
+            argument="noise",
+            remedy=f"say so by its dimensions: give covariances of shape ({runs}, rows, {d}, {d})",
+        )
+    # what fits neither way is told by the track that it does not fit
+    return parts if several or (len(parts) == runs and dimensions(given) > 3) else [given] * runs
+
+
+def _is_noise(given: Any, rows: int, d: int) -> bool:
+    """Whether this is the noise of one run: (rows, d), (rows, d, d), or (rows,) of one measure."""
+    if dimensions(given) < 1:
+        return False
+    shape = np.shape(given)
+    return shape in ((rows, d), (rows, d, d)) or (d == 1 and shape == (rows,))
 
 
 def each_of(argument: str, given: Any, runs: int, batch: bool, kind: type) -> list[Any]:
+    """One for each run: given so, or the same for all."""
     if not isinstance(given, (list, tuple)):
         return [given] * runs
     if not batch or len(given) != runs or not all(isinstance(one, kind) for one in given):
         what = f"one for each of {runs} tracks" if batch else f"one {kind.__name__}"
         raise InputError(
-            f"`{argument}` is a list of {len(given)}, not {what}",
+            f"`{argument}` is a {type(given).__name__} of {len(given)}, not {what}",
             argument=argument,
             remedy="write gv.Gaussian(mean, cov)",
         )
     return list(given)
 
 
-def parameters_by_run(params: Mapping[str, Any] | None, runs: int) -> list[dict[str, Any]]:
-    """The values of each track: numbers are for all, arrays hold one for each."""
+def parameters_by_run(
+    params: Mapping[str, Any], own: Mapping[str, tuple[int, ...]], runs: int, batch: bool
+) -> list[dict[str, Any]]:
+    """The values of each track: those of a parameter's `own` shape are for all, with one dimension more for each."""
     if not params:
         return []
     values: list[dict[str, Any]] = [{} for _ in range(runs)]
     for name, given in params.items():
-        shape = np.shape(given)
-        if shape and shape[0] != runs:
+        shape = np.shape(given) if dimensions(given) >= 0 else ()
+        wanted = own.get(name, ())
+        several = batch and shape == (runs, *wanted)
+        if name in own and shape != wanted and not several:
+            also = f", nor {(runs, *wanted)}, one for each track" if batch else ""
             raise InputError(
-                f"`params`: `{name}` has {shape[0]} values for {runs} tracks",
+                f"`params`: `{name}` has shape {shape}, not {wanted}{also}",
                 argument="params",
                 component=name,
-                remedy="give one number, or one for each track",
+                remedy=_remedy(wanted, batch),
             )
         for k in range(runs):
-            values[k][name] = given[k] if shape else given
+            values[k][name] = given[k] if several else given
     return values
+
+
+def _remedy(wanted: Sequence[int], batch: bool) -> str:
+    one = "give as many numbers as it had" if wanted else "give one number"
+    return f"{one}, or as many for each track" if batch else one

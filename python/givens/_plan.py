@@ -10,14 +10,15 @@ from typing import Any
 import numpy as np
 
 from givens import _native
-from givens._arrays import Array, shape_error
-from givens._clock import Clock, clock_of
+from givens._arrays import Array
+from givens._clock import Clock, Times, clock_of
 from givens._dynamics import Parametric
 from givens._given import Given, each_of, parameters_by_run, split
 from givens._join import Joined, join, sensors_of
 from givens._rows import controls_of, measured, noise_shapes, with_noise
+from givens._scalars import mapping
 from givens._tables import is_table, rows_by_track
-from givens.errors import InputError
+from givens.errors import InputError, MethodError
 from givens.gaussian import Gaussian
 from givens.model_file import ModelFile
 
@@ -34,12 +35,17 @@ class Track:
     mean: Array
     cov: Array
     t0: float | None
-    time: Array
+    times: Times
     z: Array
     u: Array | None
     id: Any = None
     #: Rows before the belief holds, for which there is no answer.
     before: int = 0
+
+    @property
+    def time(self) -> Array:
+        """The times of the rows in seconds."""
+        return self.times.seconds
 
     def run(self, word: Any, value: float | None, at: Array | None) -> _native.Estimates:
         """Runs it alone, after this goal."""
@@ -79,7 +85,7 @@ def plan(
     if z is None and is_table(t):
         rows = rows_by_track(plain, t)
         given = [Given(track["time"], track["z"], track["u"] if u is None else u, id=track["id"]) for track in rows]
-        batch = len(given) > 1 or given[0].id is not None
+        batch = not given or given[0].id is not None
         if noise is not None and batch:
             raise InputError(
                 "`noise` cannot be given beside a table of tracks", argument="noise", remedy="run them one by one"
@@ -92,7 +98,8 @@ def plan(
     else:
         given, batch = split(plain, t, z, u, noise)
     priors = each_of("prior", prior, len(given), batch, Gaussian)
-    values = parameters_by_run(params, len(given))
+    table = mapping("params", params, "params={name: value}")
+    values = parameters_by_run(table, _shapes(model, sensors), len(given), batch)
     tracks: list[Track] = []
     for k, track in enumerate(given):
         joined = plain
@@ -109,8 +116,16 @@ def plan(
     return tracks, batch
 
 
+def _shapes(model: Any, sensors: Any) -> dict[str, tuple[int, ...]]:
+    """The parameters of a model and its sensors, with their shapes."""
+    owners = (model,) if isinstance(model, ModelFile) else (model, *sensors_of(sensors))
+    return {name: np.shape(value) for owner in owners for name, value in owner.parameters.items()}
+
+
 def choose(model: Any, joined: Joined, method: str | None, options: Mapping[str, Any]) -> _native.Choice:
     """The method with its options; those of a model file hold where no other method is named."""
+    if method is not None and not isinstance(method, str):
+        raise MethodError(f"`method` is {method!r}, not a name", remedy='write method="sr-ckf"; gv.methods() lists all')
     if isinstance(model, ModelFile):
         named = method is not None and method != model.method
         options = {**({} if named else model.options), **options}
@@ -139,18 +154,17 @@ def with_parameters(model: Any, sensors: Any, values: Mapping[str, Any]) -> tupl
 
 def _track(model: Any, joined: Joined, choice: _native.Choice, given: Given, t0: Any) -> Track:
     clock = clock_of(given.t, t0)
-    time = clock.seconds("t", given.t)
-    if time.ndim != 1:
-        raise shape_error("t", time.shape, "(rows,)", "times are a vector: t=np.ravel(…)")
-    z = measured(joined, given.z, len(time))
-    u = with_noise(joined, controls_of(joined, given.u, len(time)), given.noise, z)
-    start = None if t0 is None else float(clock.seconds("t0", t0))
+    start = None if t0 is None else clock.moment("t0", t0)
+    times = clock.times("t", given.t)
+    rows = len(times.seconds)
+    z = measured(joined, given.z, rows)
+    u = with_noise(joined, controls_of(joined, given.u, rows), given.noise, z)
     if given.prior is None and isinstance(model, ModelFile) and t0 is None:
-        return _begun(model, joined, choice, clock, time, z, u, given.id)
+        return _begun(model, joined, choice, clock, times, z, u, given.id)
     mean, cov = read_prior(model, given.prior, joined.states)
     if start is None and isinstance(model, ModelFile):
         start = model.time
-    return Track(joined, choice, clock, mean, cov, start, time, z, u, given.id)
+    return Track(joined, choice, clock, mean, cov, start, times, z, u, given.id)
 
 
 def _begun(
@@ -158,17 +172,17 @@ def _begun(
     joined: Joined,
     choice: _native.Choice,
     clock: Clock,
-    time: Array,
+    times: Times,
     z: Array,
     u: Array | None,
     id: Any,
 ) -> Track:
     """A track whose belief stands in the model file, or is found from its first rows."""
-    t0, mean, cov, row, started = model.native.begin(time, z, u)
+    t0, mean, cov, row, started = model.native.begin(times.seconds, z, u)
     if started:
         z = z.copy()
         z[row] = np.nan
-    return Track(joined, choice, clock, mean, cov, t0, time, z, u, id, before=row)
+    return Track(joined, choice, clock, mean, cov, t0, times, z, u, id, before=row)
 
 
 def read_prior(model: Any, prior: Any, states: Sequence[str]) -> tuple[Array, Array]:
@@ -199,14 +213,15 @@ def _of_file(
     read = _native.read_tracks(model.native, path)
     tracks = []
     for one in read["tracks"]:
-        clock = Clock() if one["origin"] is None else Clock(np.datetime64(one["origin"].removesuffix("Z"), "ns"))
+        clock = Clock() if one["origin"] is None else Clock(np.datetime64(one["origin"].removesuffix("Z"), "ns"), None)
+        times = Times(one["time"], clock.shown(one["time"]))
         mean, cov, start, before, z = one["mean"], one["cov"], one["t0"], one["row"], one["z"]
         if prior is not None:
             (mean, cov), before = read_prior(model, prior, joined.states), 0
-            start = start if t0 is None else float(clock.seconds("t0", t0))
+            start = start if t0 is None else clock.moment("t0", t0)
         elif one["started"]:
             z = np.array(z)
             z[before] = np.nan
         u = one["u"] if joined.controls else None
-        tracks.append(Track(joined, choice, clock, mean, cov, start, one["time"], z, u, one["id"], before))
+        tracks.append(Track(joined, choice, clock, mean, cov, start, times, z, u, one["id"], before))
     return tracks, read["has_track_id"]

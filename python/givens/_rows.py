@@ -7,7 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from givens._arrays import Array, numbers, shape_error
+from givens._arrays import Array, dimensions, numbers, shape_error
+from givens._frames import numbers_by_name
 from givens._join import Joined, named_sensor
 from givens._names import known_name, listed
 from givens.errors import InputError
@@ -29,7 +30,7 @@ def measured(joined: Joined, z: Any, rows: int) -> Array:
 
 
 def _rows(argument: str, values: Any, rows: int, columns: tuple[str, ...]) -> Array:
-    array = numbers(argument, values)
+    array = numbers_by_name(argument, values, columns, "measure")
     d = len(columns)
     if array.ndim == 1 and d == 1:
         array = array.reshape(-1, 1)
@@ -63,7 +64,7 @@ def controls_of(joined: Joined, u: Any, rows: int) -> Array | None:
         if missing:
             raise InputError(f"`u` has no entry `{missing[0]}`", argument="u", component=missing[0])
         return np.stack([np.broadcast_to(numbers(f"u[{name!r}]", u[name]), (rows,)) for name in names], axis=1)
-    array = numbers("u", u)
+    array = numbers_by_name("u", u, names, "control", "u_")
     if array.ndim == 1 and len(names) == 1:
         array = array.reshape(-1, 1)
     if array.shape != (rows, len(names)):
@@ -87,9 +88,8 @@ def noise_shapes(noise: Any, sensors: Mapping[str, int]) -> dict[str, tuple[int,
     shapes: dict[str, tuple[int, ...]] = {}
     for name, values in noise.items():
         known_name("noise", name, tuple(sensors), "sensor")
-        d, array = sensors[name], numbers(f"noise[{name!r}]", values)
-        wide = array.ndim == 3
-        shapes[name] = (d, d) if wide else (d,)
+        d = sensors[name]
+        shapes[name] = (d, d) if dimensions(values) == 3 else (d,)
     return shapes
 
 
@@ -99,10 +99,11 @@ def with_noise(joined: Joined, u: Array | None, noise: Any, z: Array) -> Array |
         return u
     table = noise if isinstance(noise, Mapping) else {next(iter(joined.noise)): noise}
     rows = len(z)
-    columns = [np.empty((rows, 0)) if u is None else u]
+    stacked = [np.empty((rows, 0)) if u is None else u]
     for name, shape in joined.noise.items():
         argument = f"noise[{name!r}]"
-        array = numbers(argument, table[name])
+        measures = joined.measures[joined.sensors[name]]
+        array = numbers_by_name(argument, table[name], measures, "measure")
         array = array.reshape(-1, 1) if array.ndim == 1 and shape == (1,) else array
         if array.shape != (rows, *shape):
             d = shape[0]
@@ -121,5 +122,5 @@ def with_noise(joined: Joined, u: Array | None, noise: Any, z: Array) -> Array |
                 component=name,
                 remedy="standard deviations are finite, from 0 up" if len(shape) == 1 else "give finite numbers",
             )
-        columns.append(flat)
-    return np.concatenate(columns, axis=1)
+        stacked.append(flat)
+    return np.concatenate(stacked, axis=1)

@@ -7,7 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from givens._arrays import is_masked
+from givens._arrays import Array, array_of, is_null, numbers
+from givens._dates import dates_of, seconds_of
 from givens._join import Joined
 from givens._names import known_name, listed
 from givens.errors import InputError
@@ -31,31 +32,37 @@ def _columns(table: Any) -> dict[str, Any]:
     if hasattr(table, "fetchnumpy"):
         table = table.fetchnumpy()
     names = table if isinstance(table, Mapping) else getattr(table, "column_names", None) or table.columns
-    return {str(name): table[name] for name in names}
+    return _index(table) | {str(name): table[name] for name in names}
 
 
-def _array(column: Any) -> np.ndarray[Any, Any]:
-    return np.asarray(column.to_numpy() if hasattr(column, "to_numpy") else column)
+def _index(table: Any) -> dict[str, Any]:
+    """What a frame of pandas has beside its columns: times, by their name or as dates, and tracks."""
+    index: Any = getattr(table, "index", None)
+    if not hasattr(index, "get_level_values"):
+        return {}
+    levels = {name: index.get_level_values(k) for k, name in enumerate(index.names)}
+    found = {name: level for name, level in levels.items() if name in (*_TIME, _TRACK)}
+    if not found and index.nlevels == 1 and getattr(index.dtype, "kind", "") == "M":
+        found = {_TIME[0]: index}
+    return {} if any(name in table.columns for name in _TIME) else found
 
 
-def _floats(name: str, column: Any, rows: int) -> np.ndarray[Any, np.dtype[np.float64]]:
+def _floats(name: str, column: Any, rows: int) -> Array:
     """A column of numbers; what is null or masked is NaN."""
-    if is_masked(column):
-        column = column.filled(np.nan)
-    array = _array(column)
+    array = numbers("z", column, f"the column `{name}`")
     if array.shape != (rows,):
-        raise InputError(f"the column `{name}` has shape {array.shape}, not ({rows},)", argument="z", component=name)
-    if array.dtype == object:
-        # each library has a null of its own, which compares equal to nothing or is None
-        array = np.array(
-            [np.nan if value is None or value is not value or str(value) == "<NA>" else value for value in array]
-        )
-    try:
-        return array.astype(np.float64)
-    except (TypeError, ValueError):
         raise InputError(
-            f"the column `{name}` does not hold numbers but {array.dtype}", argument="z", component=name
-        ) from None
+            f"the column `{name}` has shape {array.shape}, not ({rows},)",
+            argument="z",
+            component=name,
+            remedy="give one number for each time",
+        )
+    return array
+
+
+def _words(column: Any) -> list[Any]:
+    """A column of names; None where there is none."""
+    return [None if is_null(value) else value for value in array_of(column).tolist()]
 
 
 def rows_by_track(joined: Joined, table: Any) -> list[dict[str, Any]]:
@@ -68,21 +75,29 @@ def rows_by_track(joined: Joined, table: Any) -> list[dict[str, Any]]:
             argument="t",
             remedy="name the column of times `time`",
         )
-    times = _array(time)
+    dates = dates_of("time", time)
+    times: Any = seconds_of("time", time) if dates is None else dates
     rows = len(times)
     z = _measures(joined, columns, rows)
     u = _controls(joined, columns, rows)
     if _TRACK not in columns:
         return [{"id": None, "time": times, "z": z, "u": u}]
     found: dict[Any, list[int]] = {}
-    for row, track in enumerate(_array(columns[_TRACK]).tolist()):
+    for row, track in enumerate(_words(columns[_TRACK])):
+        if track is None:
+            raise InputError(
+                f"`{_TRACK}` is missing in row {row}",
+                argument=_TRACK,
+                row=row,
+                remedy="name the track of each row, or leave such rows out",
+            )
         found.setdefault(track, []).append(row)
     return [
         {"id": track, "time": times[of], "z": z[of], "u": None if u is None else u[of]} for track, of in found.items()
     ]
 
 
-def _measures(joined: Joined, columns: Mapping[str, Any], rows: int) -> np.ndarray[Any, np.dtype[np.float64]]:
+def _measures(joined: Joined, columns: Mapping[str, Any], rows: int) -> Array:
     z = np.full((rows, len(joined.measures)), np.nan)
     absent = []
     for sensor, place in joined.sensors.items():
@@ -108,7 +123,7 @@ def _measures(joined: Joined, columns: Mapping[str, Any], rows: int) -> np.ndarr
             remedy="name the columns as the measures are named",
         )
     if _SENSOR in columns:
-        of = [None if name is None or name != name else str(name) for name in _array(columns[_SENSOR]).tolist()]
+        of = [None if name is None else str(name) for name in _words(columns[_SENSOR])]
         for sensor in {name for name in of if name}:
             known_name("sensor", sensor, tuple(joined.sensors), "sensor")
         for sensor, place in joined.sensors.items():
@@ -117,7 +132,7 @@ def _measures(joined: Joined, columns: Mapping[str, Any], rows: int) -> np.ndarr
     return z
 
 
-def _controls(joined: Joined, columns: Mapping[str, Any], rows: int) -> np.ndarray[Any, np.dtype[np.float64]] | None:
+def _controls(joined: Joined, columns: Mapping[str, Any], rows: int) -> Array | None:
     found = []
     for name in joined.controls:
         column = f"u_{name}" if f"u_{name}" in columns else name

@@ -11,7 +11,8 @@ import numpy as np
 import numpy.typing as npt
 
 from givens import _native
-from givens._arrays import Array, numbers
+from givens._arrays import Array
+from givens._frames import numbers_by_name
 from givens._names import known_name
 from givens.batch import Batch
 from givens.consistency import Consistency, consistency_of
@@ -185,7 +186,7 @@ def _compared(name: str, run: Estimates | Batch, seconds: float, truth: Any) -> 
 
 
 def _accuracy(each: Sequence[Estimates], truth: Any, batch: bool) -> tuple[Array, float]:
-    states = [numbers("truth", one) for one in (truth if batch else [truth])]
+    states = [numbers_by_name("truth", one, each[0].state, "state") for one in (truth if batch else [truth])]
     if len(states) != len(each):
         raise InputError(f"`truth` is of {len(states)} tracks, not {len(each)}", argument="truth")
     known = [one[: len(estimates)] for one, estimates in zip(states, each, strict=True)]

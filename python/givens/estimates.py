@@ -10,7 +10,9 @@ import numpy.typing as npt
 
 from givens import _native
 from givens._arrays import Array, frozen
+from givens._clock import Times
 from givens._plan import Track
+from givens._scalars import seed_of, whole
 from givens.consistency import Consistency, consistency_of
 from givens.errors import InputError, StepError
 
@@ -108,7 +110,7 @@ class Estimates:
         track: Track,
         native: _native.Estimates,
         goal: Goal,
-        at: Array | None = None,
+        at: Times | None = None,
         failed: StepError | None = None,
     ) -> Estimates:
         found = native.at if at is not None and native.at is not None else native
@@ -118,14 +120,22 @@ class Estimates:
         fields["log_likelihood"] = _after(before, found.log_likelihood, 0.0)
         fields["nis_dof"] = _after(before, found.nis_dof, 0)
         seconds = frozen(np.concatenate([track.time[:before], found.time])) if before else found.time
-        fields |= {"seconds": seconds, "time": track.clock.shown(seconds), "is_smoothed": found.smoothed}
+        fields |= {
+            "seconds": seconds,
+            "time": (at or track.times).of(seconds, track.clock),
+            "is_smoothed": found.smoothed,
+        }
         fields |= {"state": track.joined.states, "measures": track.joined.measures, "method": track.choice.name}
         fields |= {"failed": failed, "track_id": track.id, "_track": track, "_goal": goal, "_rows": len(track.time)}
+        fields["_aware"] = bool(track.clock.aware)
         fields["_whole"] = goal.word == "interval" and at is None and failed is None
         self.__dict__.update(fields)
         return self
 
     def __setattr__(self, name: str, value: object) -> None:
+        raise AttributeError("Estimates cannot be changed")
+
+    def __delattr__(self, name: str) -> None:
         raise AttributeError("Estimates cannot be changed")
 
     def __len__(self) -> int:
@@ -146,6 +156,9 @@ class Estimates:
         return {**self.__dict__, "_track": None}
 
     def __setstate__(self, fields: dict[str, Any]) -> None:
+        for value in fields.values():
+            if isinstance(value, np.ndarray):
+                value.setflags(write=False)
         self.__dict__.update(fields)
 
     def at(self, times: Any) -> Estimates:
@@ -166,8 +179,8 @@ class Estimates:
                 argument="at",
                 remedy="ask before they are pickled, or give at=… to givens.filter",
             )
-        wanted = np.atleast_1d(track.clock.seconds("at", times))
-        native = track.run(goal.word, goal.value, wanted)
+        wanted = track.clock.wanted("at", times)
+        native = track.run(goal.word, goal.value, wanted.seconds)
         error = step_error(track, native, goal)
         if error is not None:
             raise error
@@ -191,9 +204,7 @@ class Estimates:
         -------
         ndarray, shape (n, rows, states)
         """
-        for name, value in (("n", n), ("seed", seed)):
-            if value < 0:
-                raise InputError(f"`{name}` is {value}", argument=name, remedy=f"`{name}` is from 0 up")
+        n, seed = whole("n", n), seed_of(seed)
         if self.__dict__["_whole"]:
             return self._paths(n, seed)
         normal = np.random.default_rng(seed).standard_normal((n, *self.mean.shape))

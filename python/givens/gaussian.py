@@ -86,6 +86,9 @@ class Gaussian:
     def __setattr__(self, name: str, value: object) -> None:
         raise AttributeError("a Gaussian cannot be changed; make another one")
 
+    def __delattr__(self, name: str) -> None:
+        raise AttributeError("a Gaussian cannot be changed; make another one")
+
     @property
     def mean(self) -> Array:
         """The mean, shape (n,)."""
@@ -144,7 +147,16 @@ def _variances(std: Any, n: int) -> Array:
             argument="std",
             remedy="standard deviations are finite, from 0 up",
         )
-    return array**2
+    with np.errstate(over="ignore"):
+        squares: Array = array**2
+    if not np.isfinite(squares).all():
+        at = int(np.flatnonzero(~np.isfinite(squares))[0])
+        raise InputError(
+            f"`std` is {array[at]} at component {at}, whose square is no finite number",
+            argument="std",
+            remedy="measure the state in a larger unit",
+        )
+    return squares
 
 
 def _covariance(cov: Any, n: int) -> Array:

@@ -11,7 +11,9 @@ import numpy as np
 
 from givens._names import known_name
 from givens._native import Model
+from givens._scalars import text as _text
 from givens._trace.arguments import parameter_value
+from givens.errors import InputError
 from givens.gaussian import Gaussian
 
 if TYPE_CHECKING:
@@ -83,6 +85,9 @@ class ModelFile:
         return hash(self._text)
 
     def __setattr__(self, name: str, value: object) -> None:
+        raise AttributeError("a model file cannot be changed; with_params(…) gives a copy with other parameters")
+
+    def __delattr__(self, name: str) -> None:
         raise AttributeError("a model file cannot be changed; with_params(…) gives a copy with other parameters")
 
     @property
@@ -188,14 +193,19 @@ def read_model(path: str | os.PathLike[str], **parameters: float) -> ModelFile:
     ModelError
         For a file with errors; all of them, with their places.
     """
-    native = Model.read(os.fspath(path), _floats(parameters))
+    if not isinstance(path, (str, os.PathLike)):
+        raise InputError(f"`path` is {path!r}, not a path", argument="path", remedy='write read_model("model.toml")')
+    named = _text("path", os.fspath(path), "a path", 'write read_model("model.toml")')
+    native = Model.read(named, _floats(parameters))
     with open(path, encoding="utf-8") as file:
         return ModelFile(native, file.read())
 
 
 def parse_model(text: str, *, name: str = "model", **parameters: float) -> ModelFile:
     """Reads the text of a model file; errors call it `name`. Otherwise as `read_model`."""
-    return ModelFile(Model.parse(text, name, _floats(parameters)), text)
+    words = _text("text", text, "the text of a model file", "read files with gv.read_model(path)")
+    called = _text("name", name, "a name", 'write name="model"')
+    return ModelFile(Model.parse(words, called, _floats(parameters)), words)
 
 
 def _again(text: str, name: str, parameters: dict[str, float]) -> ModelFile:

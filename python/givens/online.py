@@ -67,7 +67,7 @@ class Filter:
         self._clock: Clock = clock_of(t0, t0)
         mean, cov = read_prior(model, prior, join(model, sensors).states)
         self._bind()
-        start = float(self._clock.seconds("t0", t0))
+        start = self._clock.moment("t0", t0)
         self._native = _native.Filter.start(self._joined.native, self._choice, mean, cov, start)
         if u is not None or self._joined.controls:
             self.set_controls(u)
@@ -84,7 +84,7 @@ class Filter:
         StepError
             For a step that fails; the belief stays as it was.
         """
-        self._native.predict(float(self._clock.seconds("t", t)))
+        self._native.predict(self._clock.moment("t", t))
 
     def update(self, z: Any, sensor: str | None = None) -> None:
         """Teaches the belief a measurement made at `time`.

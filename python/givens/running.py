@@ -6,16 +6,16 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from givens import _native
 from givens._plan import Track, plan
+from givens._scalars import threads_of
 from givens.batch import Batch
 from givens.errors import InputError
 from givens.estimates import Estimates, Goal, step_error
 from givens.gaussian import Gaussian
 
-__all__ = ["filter", "merge", "smooth"]
+__all__ = ["filter", "smooth"]
 
 
 # A batch gives a `Batch`, which no type of the arguments tells: with `Estimates | Any` a checker knows the attributes
@@ -105,7 +105,7 @@ def filter(
     tracks, batch = plan(
         model, sensors, t, z, prior=prior, method=method, t0=t0, u=u, noise=noise, params=params, options=options
     )
-    return _run(tracks, batch, Goal("filter"), at, threads)
+    return _run(tracks, batch, [Goal("filter")] * len(tracks), at, threads)
 
 
 def smooth(
@@ -163,86 +163,43 @@ def smooth(
     tracks, batch = plan(
         model, sensors, t, z, prior=prior, method=method, t0=t0, u=u, noise=noise, params=params, options=options
     )
-    goal = Goal("interval")
+    goals = [Goal("interval")] * len(tracks)
     if lag is not None:
-        if not isinstance(lag, (int, np.integer)) or lag < 0:
+        if not isinstance(lag, (int, np.integer)) or isinstance(lag, bool) or lag < 0:
             raise InputError(f"`lag` is {lag!r}", argument="lag", remedy="a lag is a whole number of rows, from 0 up")
-        goal = Goal("lag", float(lag))
+        # longer than any data is as long as the data
+        goals = [Goal("lag", float(min(lag, 2**53)))] * len(tracks)
     if point is not None:
-        goal = Goal("point", float(tracks[0].clock.seconds("point", point)))
-    return _run(tracks, batch, goal, at, threads)
+        # a date is as many seconds as the clock of a track says, and each has its own
+        goals = [Goal("point", track.clock.moment("point", point)) for track in tracks]
+    return _run(tracks, batch, goals, at, threads)
 
 
-def _run(tracks: list[Track], batch: bool, goal: Goal, at: Any, threads: int | None) -> Estimates | Batch:
-    times = [None if at is None else np.atleast_1d(track.clock.seconds("at", at)) for track in tracks]
+def _run(tracks: list[Track], batch: bool, goals: list[Goal], at: Any, threads: int | None) -> Estimates | Batch:
+    times = [None if at is None else track.clock.wanted("at", at) for track in tracks]
+    threads = threads_of(threads)
     if not batch:
-        native = tracks[0].run(goal.word, goal.value, times[0])
+        goal, wanted = goals[0], times[0]
+        native = tracks[0].run(goal.word, goal.value, None if wanted is None else wanted.seconds)
         error = step_error(tracks[0], native, goal)
         if error is not None:
             raise error
-        return Estimates._of(tracks[0], native, goal, times[0])
-    jobs = [track.arguments(wanted) for track, wanted in zip(tracks, times, strict=True)]
-    found = _native.run_batch(jobs, goal.word, goal.value, threads)
+        return Estimates._of(tracks[0], native, goal, wanted)
+    jobs = [
+        track.arguments(None if wanted is None else wanted.seconds) for track, wanted in zip(tracks, times, strict=True)
+    ]
+    found: list[Any] = [None] * len(jobs)
+    alike: dict[Goal, list[int]] = {}
+    for k, goal in enumerate(goals):
+        alike.setdefault(goal, []).append(k)
+    for goal, these in alike.items():
+        natives = _native.run_batch([jobs[k] for k in these], goal.word, goal.value, threads)
+        for k, native in zip(these, natives, strict=True):
+            found[k] = native
     estimates, failed = [], []
-    for k, (track, native, wanted) in enumerate(zip(tracks, found, times, strict=True)):
+    for k, (track, native, goal, wanted) in enumerate(zip(tracks, found, goals, times, strict=True)):
         error = step_error(track, native, goal, k if track.id is None else track.id)
         if error is not None:
             failed.append(error)
         estimates.append(Estimates._of(track, native, goal, wanted, error))
     return Batch(estimates, failed)
-
-
-def merge(measurements: Mapping[str, tuple[Any, Any]]) -> tuple[Any, dict[str, npt.NDArray[np.float64]]]:
-    """Brings sensors that measure at their own times into rows of common times.
-
-    Parameters
-    ----------
-    measurements : mapping
-        For each sensor its times and its measurements: ``{"radar": (t1, z1), "gps": (t2, z2)}``.
-
-    Returns
-    -------
-    t : ndarray
-        All times in order, each once.
-    z : dict
-        For each sensor an array of as many rows, NaN where it did not measure.
-
-    Examples
-    --------
-    >>> import givens as gv
-    >>> t, z = gv.merge({"radar": ([0.0, 1.0], [[5.0], [6.0]]), "gps": ([0.5, 1.0], [[7.0], [8.0]])})
-    >>> t
-    array([0. , 0.5, 1. ])
-    >>> z["gps"].ravel()
-    array([nan,  7.,  8.])
-    """
-    from givens._arrays import numbers
-
-    times, values = {}, {}
-    for name, pair in measurements.items():
-        if not (isinstance(pair, tuple) and len(pair) == 2):
-            raise InputError(
-                f"`{name}` is not a pair of times and measurements", argument="measurements", component=name
-            )
-        times[name] = np.asarray(pair[0].to_numpy() if hasattr(pair[0], "to_numpy") else pair[0])
-        array = numbers(name, pair[1])
-        values[name] = array.reshape(-1, 1) if array.ndim == 1 else array
-        if len(values[name]) != len(times[name]):
-            raise InputError(
-                f"`{name}` has {len(times[name])} times and {len(values[name])} measurements",
-                argument="measurements",
-                component=name,
-            )
-        if len(np.unique(times[name])) != len(times[name]):
-            raise InputError(
-                f"`{name}` measures twice at one time",
-                argument="measurements",
-                component=name,
-                remedy="give the second one as a sensor of its own",
-            )
-    common = np.unique(np.concatenate(list(times.values()))) if times else np.empty(0)
-    merged = {}
-    for name, array in values.items():
-        merged[name] = np.full((len(common), array.shape[1]), np.nan)
-        merged[name][np.searchsorted(common, times[name])] = array
-    return common, merged

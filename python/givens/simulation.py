@@ -9,12 +9,12 @@ from typing import Any
 import numpy as np
 
 from givens import _native
-from givens._arrays import Array, shape_error
+from givens._arrays import Array
 from givens._clock import clock_of
 from givens._join import join
 from givens._plan import read_prior, with_parameters
 from givens._rows import controls_of, noise_shapes, with_noise
-from givens.errors import InputError
+from givens._scalars import mapping, seed_of, threads_of, whole
 from givens.gaussian import Gaussian
 
 __all__ = ["Simulated", "simulate"]
@@ -91,31 +91,28 @@ def simulate(
     >>> gv.simulate(model, ruler, [0.0, 0.5, 1.0], prior=gv.Gaussian([1, 0], std=[1, 1]), seed=7, runs=100)
     Simulated(t=(3,), x=(100, 3, 2), z=(100, 3, 1))
     """
-    model, sensors = with_parameters(model, sensors, params or {})
+    model, sensors = with_parameters(model, sensors, mapping("params", params, "params={name: value}"))
     plain = join(model, sensors)
     widths = {name: place.stop - place.start for name, place in plain.sensors.items()}
     joined = join(model, sensors, noise_shapes(noise, widths)) if noise is not None else plain
     clock = clock_of(t, t0)
-    time = clock.seconds("t", t)
-    if time.ndim != 1:
-        raise shape_error("t", time.shape, "(rows,)", "times are a vector: t=np.ravel(…)")
-    for name, value, least in (("seed", seed, 0), ("runs", 1 if runs is None else runs, 0), ("substeps", substeps, 1)):
-        if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or value < least:
-            raise InputError(f"`{name}` is {value!r}", argument=name, remedy=f"give a whole number, from {least} up")
+    start = None if t0 is None else clock.moment("t0", t0)
+    times = clock.times("t", t)
+    time = times.seconds
+    drawn_from, count = seed_of(seed), 1 if runs is None else whole("runs", runs)
     z = np.zeros((len(time), len(joined.measures)))
     controls = with_noise(joined, controls_of(joined, u, len(time)), noise, z)
     mean, cov = read_prior(model, prior, joined.states)
-    start = None if t0 is None else float(clock.seconds("t0", t0))
     x, drawn = _native.simulate(
         joined.native,
         mean,
         cov,
         start,
         time,
-        int(seed),
-        1 if runs is None else int(runs),
+        drawn_from,
+        count,
         u=controls,
-        substeps=int(substeps),
-        threads=threads,
+        substeps=whole("substeps", substeps, 1),
+        threads=threads_of(threads),
     )
-    return Simulated(clock.shown(time), *((x[0], drawn[0]) if runs is None else (x, drawn)))
+    return Simulated(times.given, *((x[0], drawn[0]) if runs is None else (x, drawn)))

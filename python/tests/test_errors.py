@@ -282,7 +282,7 @@ CASES = [
     (
         lambda: gv.Gaussian(["a", 1], np.eye(2)),
         gv.InputError,
-        "`mean` is not an array of real numbers: it holds something else\n  help: give a list of numbers, or a NumPy array of floats",
+        "`mean` is not an array of real numbers: it holds text\n  help: give a list of numbers, or a NumPy array of floats",
     ),
     (
         lambda: gv.filter(3, LENGTH, T, Z, prior=PRIOR),
@@ -308,7 +308,7 @@ CASES = [
     (
         lambda: gv.filter(MODEL, LENGTH, T, Z, prior=([0, 0], np.eye(2))),
         gv.InputError,
-        "`prior` is a list of 2, not one Gaussian\n  help: write gv.Gaussian(mean, cov)",
+        "`prior` is a tuple of 2, not one Gaussian\n  help: write gv.Gaussian(mean, cov)",
     ),
     (
         lambda: gv.filter(MODEL, LENGTH, T, Z, prior=gv.Gaussian([0], std=[1])),
@@ -399,7 +399,7 @@ CASES = [
     (
         lambda: gv.filter(MODEL, LENGTH, T, [["a"]] * 20, prior=PRIOR),
         gv.InputError,
-        "`z` is not an array of real numbers: it holds something else\n  help: give a list of numbers, or a NumPy array of floats",
+        "`z` is not an array of real numbers: it holds text\n  help: give a list of numbers, or a NumPy array of floats",
     ),
     (
         lambda: gv.filter(MODEL, LENGTH, T, Z, prior=PRIOR, u=Z),
@@ -459,7 +459,7 @@ CASES = [
     (
         lambda: gv.filter(MODEL, LENGTH, T, Z, prior=PRIOR, params={"k": [1, 2]}),
         gv.InputError,
-        "`params`: `k` has 2 values for 1 tracks\n  help: give one number, or one for each track",
+        "`params`: `k` has shape (2,), not ()\n  help: give one number",
     ),
     (
         lambda: gv.filter(MODEL, LENGTH, T, Z, prior=PRIOR, at=[-1.0]),
@@ -509,7 +509,7 @@ CASES = [
     (
         lambda: gv.filter(MODEL, LENGTH, {"time": T, "length": ["a"] * 20}, prior=PRIOR),
         gv.InputError,
-        "the column `length` does not hold numbers but <U1",
+        "the column `length` is not an array of real numbers: it holds text\n  help: give a list of numbers, or a NumPy array of floats",
     ),
     (
         lambda: gv.filter(MODEL, LENGTH, {"time": T, "length": Z[:, 0], "sensor": ["ruller"] * 20}, prior=PRIOR),
@@ -562,7 +562,7 @@ CASES = [
         gv.InputError,
         "`options` names `ekf`, which is no method among `methods`\n  help: did you mean `cd-ekf`?",
     ),
-    (lambda: gv.merge({"a": (T, Z[:3])}), gv.InputError, "`a` has 20 times and 3 measurements"),
+    (lambda: gv.merge({"a": (T, Z[:3])}), gv.InputError, "`a` has 20 times and 3 measurements\n  help: give times (rows,) and measurements (rows, d)"),
 ]
 
 

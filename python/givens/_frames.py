@@ -1,0 +1,56 @@
+"""Arrays that are frames of pandas, polars or pyarrow: their columns are taken by name."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from givens._arrays import Array, numbers
+from givens._names import known_name, listed
+from givens.errors import InputError
+
+__all__ = ["columns_of", "is_frame", "numbers_by_name"]
+
+
+def is_frame(value: object) -> bool:
+    """Whether this is a table whose columns have names."""
+    frame = hasattr(value, "columns") and hasattr(value, "__getitem__")
+    return (frame or hasattr(value, "column_names")) and bool(columns_of(value))
+
+
+def columns_of(frame: Any) -> list[str]:
+    """The names of the columns; none where they are numbered."""
+    names = list(getattr(frame, "column_names", None) or frame.columns)
+    return [str(name) for name in names] if any(isinstance(name, str) for name in names) else []
+
+
+def numbers_by_name(argument: str, value: Any, names: Sequence[str], what: str, prefix: str = "") -> Array:
+    """Anything like an array as floats; of a frame, the columns of these names, in their order.
+
+    `what` says of what kind they are; a column may be called by its name with the prefix as well.
+    """
+    if not is_frame(value):
+        return numbers(argument, value)
+    found: dict[str, Any] = {}
+    for name in columns_of(value):
+        plain = name.removeprefix(prefix) if name not in names else name
+        known_name(f"the columns of {argument}", plain, names, what)
+        if plain in found:
+            raise InputError(
+                f"`{argument}` has two columns `{plain}`",
+                argument=argument,
+                component=plain,
+                remedy="leave one of them out",
+            )
+        found[plain] = value[name]
+    missing = [name for name in names if name not in found]
+    if missing:
+        raise InputError(
+            f"`{argument}` has no column `{missing[0]}`: it has {listed(found)}",
+            argument=argument,
+            component=missing[0],
+            remedy="give one for each of " + ", ".join(names),
+        )
+    return np.stack([numbers(argument, found[name], f"the column `{name}`") for name in names], axis=1)

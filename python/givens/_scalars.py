@@ -1,0 +1,68 @@
+"""Single numbers and words that users give."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from givens.errors import InputError
+
+__all__ = ["mapping", "seed_of", "text", "threads_of", "whole"]
+
+#: The largest number of threads, steps or rows that is taken for one.
+MOST = 2**31 - 1
+#: The largest seed.
+LAST_SEED = 2**64 - 1
+
+
+def whole(argument: str, value: Any, least: int = 0, most: int = MOST) -> int:
+    """A whole number from `least` up."""
+    fits = isinstance(value, (int, np.integer)) and not isinstance(value, bool) and least <= value <= most
+    if not fits:
+        room = f"from {least} up"
+        if isinstance(value, (int, np.integer)) and value > most:
+            room = f"from {least} to {most}"
+        raise InputError(f"`{argument}` is {value!r}", argument=argument, remedy=f"give a whole number, {room}")
+    return int(value)
+
+
+def seed_of(seed: Any) -> int:
+    """A seed, which has 64 bits."""
+    return whole("seed", seed, 0, LAST_SEED)
+
+
+def threads_of(threads: Any) -> int | None:
+    """How many threads; None: as many as there are cores."""
+    return None if threads is None else whole("threads", threads, 1)
+
+
+def text(argument: str, value: Any, what: str, remedy: str) -> str:
+    """Words that can be written in UTF-8."""
+    if not isinstance(value, str):
+        raise InputError(f"`{argument}` is {_shown(value)}, not {what}", argument=argument, remedy=remedy)
+    try:
+        value.encode()
+    except UnicodeEncodeError as error:
+        raise InputError(
+            f"`{argument}` holds {value[error.start]!r} at character {error.start}, which is half of one",
+            argument=argument,
+            remedy='read files as UTF-8: open(path, encoding="utf-8")',
+        ) from None
+    return value
+
+
+def mapping(argument: str, value: Any, example: str) -> Mapping[str, Any]:
+    """A table by name; None is an empty one."""
+    if value is None:
+        return {}
+    if not isinstance(value, Mapping):
+        raise InputError(
+            f"`{argument}` is {_shown(value)}, not a table by name", argument=argument, remedy=f"write {example}"
+        )
+    return value
+
+
+def _shown(value: Any) -> str:
+    return repr(value) if value is None or isinstance(value, (int, float, str)) else type(value).__name__

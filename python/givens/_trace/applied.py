@@ -12,8 +12,13 @@ from givens._trace.symbol import Scalar, Sym, binary, unary
 __all__ = ["apply", "apply_two", "polynomial"]
 
 _NUMPY = {
-    **{"asin": "arcsin", "acos": "arccos", "atan": "arctan", "neg": "negative"},
-    **{"pow": "power", "max": "maximum", "min": "minimum"},
+    "asin": "arcsin",
+    "acos": "arccos",
+    "atan": "arctan",
+    "neg": "negative",
+    "pow": "power",
+    "max": "maximum",
+    "min": "minimum",
 }
 
 

@@ -65,11 +65,11 @@ class SymArray(np.ndarray[Any, np.dtype[np.object_]]):
     def __format__(self, spec: str) -> str:
         return repr(self)
 
-    def astype(self, dtype: Any, *_: Any, copy: bool = True, **__: Any) -> Any:
+    def astype(self, dtype: Any, *_: Any, **kwargs: Any) -> Any:
         if not has_symbols(self):
             return numbers(self).astype(dtype)
         check_held(dtype)
-        return self.copy() if copy else self
+        return self.copy() if kwargs.get("copy", True) else self
 
 
 def _reduction(name: str) -> Any:

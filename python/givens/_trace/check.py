@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
@@ -24,6 +25,8 @@ Array = npt.NDArray[np.float64]
 _SCALES = (1.0, 0.03, 30.0, 1e3, 1e6)
 _EACH = 4
 _RELATIVE = 1e-9
+#: States along each of which derivatives are taken where states are equal; more are tried along one direction.
+_FEW = 8
 
 
 @dataclass(frozen=True)
@@ -74,15 +77,16 @@ def _points(sizes: Sizes, values: Array, near: Array | None) -> Iterator[Point]:
     """States of several sizes, of either sign and of positive sign; parameters at and around their values."""
     uniform, normal = _draws()
 
-    def point(x: Array, u: Array, p: Array) -> Point:
+    def point(x: Array, u: Array, p: Array, longest: float = 10.0) -> Point:
         t, dt = uniform(2)
-        return Point(10 * t, 0.01 + 0.99 * dt, x, u, p)
+        return Point(longest * t, 0.01 + 0.99 * dt, x, u, p)
 
     for scale in _SCALES:
         for k in range(_EACH):
             x, u = normal(sizes.states), normal(sizes.controls)
             x, u = (x, u) if k % 2 else (np.abs(x), np.abs(u))
-            yield point(scale * x, u, values * (0.8 + 0.45 * uniform(values.size) if k else 1.0))
+            p = values * (0.8 + 0.45 * uniform(values.size) if k else 1.0)
+            yield point(scale * x, u, p, 10.0 if k < _EACH - 1 else 1e4)
     for k in range(_EACH if near is not None else 0):
         x = np.asarray(near) * (1 + 0.1 * k * (2 * uniform(sizes.states) - 1))
         yield point(x, normal(sizes.controls), values)
@@ -149,16 +153,15 @@ def compare_slopes(
     uniform, normal = _draws()
     t, dt = 0.5, 0.25
     slopes, axes = Slopes(traced, sizes, dt), list(np.eye(n))
-    places = [(np.zeros(n), axes), (np.ones(n), axes)]
+    places = [(np.zeros(n), axes), (np.ones(n), axes if n <= _FEW else [2 * uniform(n) - 1])]
     places += [(np.array(near, dtype=float), axes)] if near is not None else []
     places += [(scale * normal(n), [2 * uniform(n) - 1]) for scale in (1.0, 30.0)]
     for x, directions in places:
         point = Point(t, dt, x, np.full(sizes.controls, 0.5), traced.arguments.values)
         found = slopes.at(t, x, point.u, point.p)
         try:
-            wrong = found is not None and wrong_slope(
-                lambda moved, at=point: _real(function, traced, replace(at, x=moved), names), x, found, directions
-            )
+            moved = functools.partial(_real_at, function, traced, point, names)
+            wrong = found is not None and wrong_slope(moved, x, found, directions)
         except Exception:
             # where the function has no value, it has no derivative
             continue
@@ -212,6 +215,10 @@ def _real(function: Callable[..., Any], traced: Traced, point: Point, names: tup
     if isinstance(result, dict):
         result = [result[name] for name in names]
     return np.asarray(result, dtype=float).ravel()
+
+
+def _real_at(function: Callable[..., Any], traced: Traced, point: Point, names: tuple[str, ...], x: Array) -> Array:
+    return _real(function, traced, replace(point, x=x), names)
 
 
 def _evaluated(traced: Traced, points: Sequence[Point]) -> Array:

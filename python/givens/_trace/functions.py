@@ -11,7 +11,7 @@ from givens._trace.array import Objects, SymArray, boxed, check_held, has_symbol
 from givens._trace.choice import CHOICE
 from givens._trace.linear import LINEAR
 from givens._trace.reductions import REDUCTIONS
-from givens._trace.refuse import refuse_argument, refuse_conversion, refuse_function
+from givens._trace.refuse import refuse_argument, refuse_function
 from givens._trace.symbol import Sym
 from givens._trace.universal import into, is_double
 

@@ -14,6 +14,7 @@ __all__ = [
     "refuse_argument",
     "refuse_branch",
     "refuse_conversion",
+    "refuse_difference",
     "refuse_filling",
     "refuse_function",
 ]
@@ -101,16 +102,20 @@ def refuse_conversion(kind: str, remedy: str | None = None) -> TraceError:
     )
 
 
+def refuse_difference() -> TraceError:
+    """Of a difference of two conditions."""
+    remedy = "write a ^ b, or np.where(a, 1, 0) - np.where(b, 1, 0)"
+    return refuse("NumPy takes no condition from another", remedy)
+
+
 def refuse_filling() -> TraceError:
     """Of an array made elsewhere, or by arithmetic on numbers, that was to take a symbol."""
     place = here()
     found = _FILLED.search(place.source or "")
     name = found.group(1) if found is not None else "y"
-    return refuse(
-        f"{'an array of plain numbers' if found is None else f'`{name}`, an array of plain numbers,'} was to take a value that is not known yet",
-        f"write {name} = np.array({name}) before: what np.array, np.zeros and their kin make inside the function takes it",
-        place,
-    )
+    what = "an array of plain numbers" if found is None else f"`{name}`, an array of plain numbers,"
+    remedy = f"write {name} = np.array({name}) before: what np.array, np.zeros and their kin make inside the function"
+    return refuse(f"{what} was to take a value that is not known yet", f"{remedy} takes it", place)
 
 
 def refuse_function(name: str, remedy: str | None = None) -> TraceError:

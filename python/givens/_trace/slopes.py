@@ -1,4 +1,4 @@
-"""Whether the derivatives of a trace are those of the function: where it is smooth, they are its difference quotients."""
+"""Whether the derivatives of a trace are the function's: where it is smooth, they are its difference quotients."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ class Slopes:
 def wrong_slope(
     function: Callable[[Array], Array], x: Array, slopes: Array, directions: Sequence[Array]
 ) -> tuple[int, Array, float, float] | None:
-    """The first result whose derivative in one of the directions is another: which, where, its own and that of `slopes`."""
+    """The first result whose derivative along one of the directions is not that of `slopes`: which, where, and both."""
     here = function(x)
     for direction in directions:
         size = _STEP * max(1.0, float(np.abs(x[direction != 0]).max(initial=0.0)))

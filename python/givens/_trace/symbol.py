@@ -6,7 +6,7 @@ from typing import Any, NoReturn, cast
 
 import numpy as np
 
-from givens._trace.refuse import refuse, refuse_branch, refuse_conversion
+from givens._trace.refuse import refuse, refuse_branch, refuse_conversion, refuse_difference
 from givens._trace.tape import Tape
 
 __all__ = ["Scalar", "Sym", "binary", "is_condition", "is_number", "is_symbol", "power", "select", "unary"]
@@ -63,9 +63,7 @@ class Sym:
 
     def __sub__(self, other: Any) -> Any:
         if is_condition(self) and is_condition(other):
-            raise refuse(
-                "NumPy takes no condition from another", "write a ^ b, or np.where(a, 1, 0) - np.where(b, 1, 0)"
-            )
+            raise refuse_difference()
         return binary("sub", self, other)
 
     def __rsub__(self, other: Any) -> Any:
@@ -222,8 +220,7 @@ class Sym:
         check_held(dtype)
         return self
 
-    def __copy__(self) -> Sym:
-        return self
+    __copy__ = copy
 
     def __deepcopy__(self, memo: object) -> Sym:
         return self

@@ -58,3 +58,10 @@ def test_a_slope_is_compared_at_the_state_of_check_at_too():
     gv.Sde(tied, diffusion=[1, 1], state=["a", "b"])
     with pytest.raises(gv.TraceError, match="do not have its derivatives"):
         gv.Sde(tied, diffusion=[1, 1], state=["a", "b"], check_at=[5.0, 0.0])
+
+
+def test_rounding_is_not_taken_for_a_slope():
+    def far(t, x):
+        return [(x[0] + 1e9) - 1e9, np.linalg.norm([x[0] + 6.371e6, x[1], 1.0]) - 6.371e6]
+
+    gv.Sde(far, diffusion=[1, 1], state=["a", "b"])

@@ -16,8 +16,9 @@ __all__ = ["Slopes", "wrong_slope"]
 
 Array = npt.NDArray[np.float64]
 
-#: The larger one of two steps, for numbers of size one; the other is a quarter of it.
-_STEP = 2.0**-20
+#: The larger one of two steps, for numbers of size one, and the share of it that is the other: what agrees over so
+#: many sizes is no coincidence of rounding.
+_STEP, _SHARE = 2.0**-16, 2.0**-6
 #: How far four quotients of a smooth function may lie apart, and how far a derivative from them.
 _SMOOTH, _RELATIVE = 1e-3, 1e-2
 
@@ -72,8 +73,10 @@ def wrong_slope(
         quotients = np.array(list(_quotients(function, x, here, direction, size)))
         with np.errstate(all="ignore"):
             own, found = quotients.mean(axis=0), slopes @ direction
-            noise = 256 * np.finfo(float).eps * np.abs(here) / size
+            noise = 1024 * np.finfo(float).eps * np.abs(here) / size
             smooth = np.ptp(quotients, axis=0) <= _SMOOTH * np.abs(quotients).max(axis=0) + noise
+            # one that does not move at all may do so by less than its rounding
+            smooth &= quotients.any(axis=0)
             # a covariance brings them, rounded as its largest entries are
             room = 4 * noise + 1e-9 * np.abs(slopes).max(axis=1) + 1e-12
             apart = np.abs(found - own) > _RELATIVE * np.maximum(np.abs(found), np.abs(own)) + room
@@ -87,6 +90,6 @@ def wrong_slope(
 def _quotients(
     function: Callable[[Array], Array], x: Array, here: Array, direction: Array, size: float
 ) -> Iterator[Array]:
-    for step in (size, -size, size / 4, -size / 4):
+    for step in (size, -size, size * _SHARE, -size * _SHARE):
         with np.errstate(all="ignore"):
             yield (function(x + step * direction) - here) / step

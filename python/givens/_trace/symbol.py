@@ -208,11 +208,10 @@ class Sym:
 
     T = real
 
-    def item(self) -> Sym:
-        return self
-
     def copy(self) -> Sym:
         return self
+
+    item = copy
 
     def astype(self, dtype: Any, **_: Any) -> Any:
         from givens._trace.array import check_held

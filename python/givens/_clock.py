@@ -96,7 +96,8 @@ class Clock:
 
 
 def _since(argument: str, dates: Dates, origin: np.datetime64) -> Array:
-    apart = (dates.array.astype("datetime64[s]") - origin.astype("datetime64[s]")).astype(np.int64)
+    exact = dates.array.astype("datetime64[ns]")
+    apart = (exact.astype("datetime64[s]") - origin.astype("datetime64[s]")).astype(np.int64)
     # 2⁶³ nanoseconds, less some seconds
     far = np.abs(apart.ravel()) > 9_223_372_000
     if far.any():
@@ -108,7 +109,7 @@ def _since(argument: str, dates: Dates, origin: np.datetime64) -> Array:
             row=row,
             remedy="give seconds as numbers",
         )
-    return np.asarray((dates.array.astype("datetime64[ns]") - origin).astype(np.int64) / 1e9)
+    return np.asarray((exact - origin).astype(np.int64) / 1e9)
 
 
 def _several(value: Any) -> str:

@@ -15,15 +15,16 @@ __all__ = ["columns_of", "is_frame", "numbers_by_name"]
 
 
 def is_frame(value: object) -> bool:
-    """Whether this is a table whose columns have names."""
+    """Whether this is a table whose columns have names; those of some are only numbered."""
     frame = hasattr(value, "columns") and hasattr(value, "__getitem__")
-    return (frame or hasattr(value, "column_names")) and bool(columns_of(value))
+    if not (frame or hasattr(value, "column_names")):
+        return False
+    return any(not isinstance(name, (int, np.integer)) for name in columns_of(value))
 
 
-def columns_of(frame: Any) -> list[str]:
-    """The names of the columns; none where they are numbered."""
-    names = list(getattr(frame, "column_names", None) or frame.columns)
-    return [str(name) for name in names] if any(isinstance(name, str) for name in names) else []
+def columns_of(frame: Any) -> list[Any]:
+    """The names of the columns."""
+    return list(getattr(frame, "column_names", None) or frame.columns)
 
 
 def numbers_by_name(argument: str, value: Any, names: Sequence[str], what: str, prefix: str = "") -> Array:
@@ -35,7 +36,7 @@ def numbers_by_name(argument: str, value: Any, names: Sequence[str], what: str, 
         return numbers(argument, value)
     found: dict[str, Any] = {}
     for name in columns_of(value):
-        plain = name.removeprefix(prefix) if name not in names else name
+        plain = str(name) if name in names else str(name).removeprefix(prefix)
         known_name(f"the columns of {argument}", plain, names, what)
         if plain in found:
             raise InputError(

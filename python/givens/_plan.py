@@ -16,7 +16,7 @@ from givens._dynamics import Parametric
 from givens._given import Given, each_of, parameters_by_run, split
 from givens._join import Joined, join, sensors_of
 from givens._rows import controls_of, measured, noise_shapes, with_noise
-from givens._scalars import mapping
+from givens._scalars import mapping, text
 from givens._tables import is_table, rows_by_track
 from givens.errors import InputError, MethodError
 from givens.gaussian import Gaussian
@@ -80,7 +80,7 @@ def plan(
     plain = join(model, sensors)
     choice = choose(model, plain, method, options)
     if isinstance(t, (str, os.PathLike)):
-        return _of_file(model, plain, choice, os.fspath(t), prior, t0)
+        return _of_file(model, plain, choice, _path(t), prior, t0)
     widths = {name: place.stop - place.start for name, place in plain.sensors.items()}
     if z is None and is_table(t):
         rows = rows_by_track(plain, t)
@@ -114,6 +114,10 @@ def plan(
                 error.add_note(f"in track {k if track.id is None else track.id}")
             raise
     return tracks, batch
+
+
+def _path(t: Any) -> str:
+    return text("t", os.fspath(t), "a path", "give the path as text", "give the file a name that is UTF-8")
 
 
 def _shapes(model: Any, sensors: Any) -> dict[str, tuple[int, ...]]:

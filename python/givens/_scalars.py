@@ -9,7 +9,7 @@ import numpy as np
 
 from givens.errors import InputError
 
-__all__ = ["mapping", "seed_of", "text", "threads_of", "whole"]
+__all__ = ["mapping", "positive", "seed_of", "text", "threads_of", "whole"]
 
 #: The largest number of threads, steps or rows that is taken for one.
 MOST = 2**31 - 1
@@ -38,8 +38,8 @@ def threads_of(threads: Any) -> int | None:
     return None if threads is None else whole("threads", threads, 1)
 
 
-def text(argument: str, value: Any, what: str, remedy: str) -> str:
-    """Words that can be written in UTF-8."""
+def text(argument: str, value: Any, what: str, remedy: str, split: str = "give words that are UTF-8") -> str:
+    """Words that can be written in UTF-8; `remedy` is of what is none, `split` of words with half a character."""
     if not isinstance(value, str):
         raise InputError(f"`{argument}` is {_shown(value)}, not {what}", argument=argument, remedy=remedy)
     try:
@@ -48,9 +48,17 @@ def text(argument: str, value: Any, what: str, remedy: str) -> str:
         raise InputError(
             f"`{argument}` holds {value[error.start]!r} at character {error.start}, which is half of one",
             argument=argument,
-            remedy='read files as UTF-8: open(path, encoding="utf-8")',
+            remedy=split,
         ) from None
     return value
+
+
+def positive(argument: str, value: Any, remedy: str) -> float:
+    """A finite number above 0."""
+    number = isinstance(value, (int, float, np.integer, np.floating)) and not isinstance(value, bool)
+    if not (number and 0 < value < np.inf):
+        raise InputError(f"`{argument}` is {_shown(value)}", argument=argument, remedy=remedy)
+    return float(value)
 
 
 def mapping(argument: str, value: Any, example: str) -> Mapping[str, Any]:

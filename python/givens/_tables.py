@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 
 from givens._arrays import Array, array_of, is_null, numbers
-from givens._dates import dates_of, seconds_of
+from givens._dates import Dates, dates_of, seconds_of
+from givens._frames import columns_of
 from givens._join import Joined
 from givens._names import known_name, listed
 from givens.errors import InputError
@@ -31,7 +32,7 @@ def is_table(value: object) -> bool:
 def _columns(table: Any) -> dict[str, Any]:
     if hasattr(table, "fetchnumpy"):
         table = table.fetchnumpy()
-    names = table if isinstance(table, Mapping) else getattr(table, "column_names", None) or table.columns
+    names = table if isinstance(table, Mapping) else columns_of(table)
     return _index(table) | {str(name): table[name] for name in names}
 
 
@@ -77,6 +78,10 @@ def rows_by_track(joined: Joined, table: Any) -> list[dict[str, Any]]:
         )
     dates = dates_of("time", time)
     times: Any = seconds_of("time", time) if dates is None else dates
+    if (times.array if isinstance(times, Dates) else times).ndim != 1:
+        raise InputError(
+            "the column `time` is not a list of times", argument="t", remedy="give one time for each row of the table"
+        )
     rows = len(times)
     z = _measures(joined, columns, rows)
     u = _controls(joined, columns, rows)

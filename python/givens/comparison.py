@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from time import perf_counter
 from typing import Any
@@ -14,6 +14,7 @@ from givens import _native
 from givens._arrays import Array
 from givens._frames import numbers_by_name
 from givens._names import known_name
+from givens._scalars import mapping
 from givens.batch import Batch
 from givens.consistency import Consistency, consistency_of
 from givens.errors import InputError, StepError
@@ -149,13 +150,14 @@ def compare(
     >>> [(one.method, one.rows) for one in table]
     [('ekf', 50), ('sr-ckf', 50)]
     """
-    if isinstance(methods, str) or not list(methods):
+    options = mapping("options", options, 'options={"sr-ukf": {"kappa": 0}}')
+    if isinstance(methods, str) or not isinstance(methods, Iterable) or not list(methods):
         raise InputError(f"`methods` is {methods!r}", argument="methods", remedy='write methods=["ekf", "sr-ckf"]')
-    for name in options or {}:
+    for name in options:
         known_name("options", name, tuple(methods), "method among `methods`")
     found = Comparison()
     for name in methods:
-        own = dict((options or {}).get(name, {}))
+        own = mapping("options", options.get(name), 'options={"sr-ukf": {"kappa": 0}}')
         arguments = {"prior": prior, "method": name, **common, **own}
         run, seconds = _timed(model, sensors, t, z, arguments)
         if seconds < _QUICK:

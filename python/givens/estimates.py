@@ -38,7 +38,7 @@ class Estimates:
     Attributes
     ----------
     time : ndarray, shape (rows,)
-        As given: numbers, or dates.
+        As given: numbers, or dates, which are in UTC if they had a time zone.
     seconds : ndarray, shape (rows,)
         The same as numbers; of dates, since `t0` or the first row.
     mean, cov : ndarray, shapes (rows, n) and (rows, n, n)

@@ -178,6 +178,10 @@ class ModelFile:
         return f"<table><caption>ModelFile</caption>{rows}</table>"
 
 
+_NAME = "give the file a name that is UTF-8"
+_UTF8 = 'read files as UTF-8: open(path, encoding="utf-8")'
+
+
 def read_model(path: str | os.PathLike[str], **parameters: float) -> ModelFile:
     """Reads a model file.
 
@@ -195,7 +199,7 @@ def read_model(path: str | os.PathLike[str], **parameters: float) -> ModelFile:
     """
     if not isinstance(path, (str, os.PathLike)):
         raise InputError(f"`path` is {path!r}, not a path", argument="path", remedy='write read_model("model.toml")')
-    named = _text("path", os.fspath(path), "a path", 'write read_model("model.toml")')
+    named = _text("path", os.fspath(path), "a path", 'write read_model("model.toml")', _NAME)
     native = Model.read(named, _floats(parameters))
     with open(path, encoding="utf-8") as file:
         return ModelFile(native, file.read())
@@ -203,7 +207,7 @@ def read_model(path: str | os.PathLike[str], **parameters: float) -> ModelFile:
 
 def parse_model(text: str, *, name: str = "model", **parameters: float) -> ModelFile:
     """Reads the text of a model file; errors call it `name`. Otherwise as `read_model`."""
-    words = _text("text", text, "the text of a model file", "read files with gv.read_model(path)")
+    words = _text("text", text, "the text of a model file", "read files with gv.read_model(path)", _UTF8)
     called = _text("name", name, "a name", 'write name="model"')
     return ModelFile(Model.parse(words, called, _floats(parameters)), words)
 

@@ -47,12 +47,15 @@ def filter(
     sensors : Sensor or list of Sensor
         What is measured; None for a model file, which has its own.
     t : array_like, shape (rows,)
-        Times in order: numbers, or dates, of which seconds since `t0` are taken. Or a table in place of `t` and `z`: of
-        pandas, polars, pyarrow or duckdb, or a dict of arrays, with the columns ``time``, one for each measure, and, if
-        there are such, ``sensor``, ``track_id`` and ``u_…`` for controls. For a model file also the path of a CSV file.
+        Times in order: numbers, durations, which are taken as seconds, or dates, of which seconds since `t0` are taken;
+        dates have a time zone all of them, or none. Or a table in place of `t` and `z`: of pandas, polars, pyarrow or
+        duckdb, or a dict of arrays, with the columns ``time`` (in pandas, the index may be it), one for each measure,
+        and, if there are such, ``sensor``, ``track_id`` and ``u_…`` for controls. For a model file also the path of a
+        CSV file.
     z : array_like, shape (rows, d)
-        Measurements, those of several sensors side by side in their order; NaN and masked are missing. Or a table by
-        sensor: ``{"radar": (rows, 3), …}``. A row without any asks for the prediction. Of a batch: shape
+        Measurements, those of several sensors side by side in their order; NaN and masked are missing. The columns of a
+        frame are taken by the names of the measures. Or a table by sensor: ``{"radar": (rows, 3), …}``. A row without
+        any asks for the prediction. Of a batch: shape
         (runs, rows, d), or a list with an array for each run, with `t` of shape (rows,) or a list as well.
     prior : Gaussian
         The belief at `t0`; of a batch also a list with one for each run.
@@ -68,7 +71,7 @@ def filter(
         Standard deviations (rows, d) or covariances (rows, d, d) of the errors, row by row, in place of the sensor's
         own; of several sensors a table by name.
     params : mapping, optional
-        Values of parameters by name; of a batch also arrays with one for each run.
+        Values of parameters by name; of a batch also arrays with one dimension more, one value for each run.
     threads : int, optional
         Threads for a batch; by default as many as there are cores. Estimates do not depend on it.
     **options

@@ -11,6 +11,7 @@ from givens._arrays import numbers, shape_error
 from givens._dynamics import Dynamics, begin, noise_request, parameters_of, read_jacobian
 from givens._factor import first_asymmetry
 from givens._part import Part, Request
+from givens._scalars import positive
 from givens.errors import InputError
 from givens.sde import check_length
 
@@ -75,8 +76,8 @@ class Transition(Dynamics):
         common = begin(state, controls, parameters, trace, vectorized, check_at)
         states: tuple[str, ...] = common["states"]
         u = ("u",) if common["controls"] else ()
-        if step is not None and not float(step) > 0:
-            raise InputError(f"`step` is {step}", argument="step", remedy="a step is longer than 0")
+        if step is not None:
+            step = positive("step", step, "a step is longer than 0")
         moves = Request("f", ("t", "dt", "x"), u, states, **common).read(f)
         check_length(moves, states)
         parts = {"f": moves, "noise_cov": _noise(noise_cov, states, u, common)}

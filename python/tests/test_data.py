@@ -399,6 +399,31 @@ CASES = [
         "`text` holds '\\ud800' at character 1, which is half of one",
         'read files as UTF-8: open(path, encoding="utf-8")',
     ),
+    (
+        lambda: gv.read_model("a\udcff"),
+        "`path` holds '\\udcff' at character 1, which is half of one",
+        "give the file a name that is UTF-8",
+    ),
+    (
+        lambda: walk({"time": 0.0, "p": [1], "q": [1]}, None),
+        "the column `time` is not a list of times",
+        "give one time for each row of the table",
+    ),
+    (
+        lambda: gv.Transition(lambda t, dt, x: x, noise_cov=np.eye(2), state=["a", "b"], step="a"),
+        "`step` is 'a'",
+        "a step is longer than 0",
+    ),
+    (
+        lambda: gv.compare(WALK, BOTH, [0, 1, 2], Z2, prior=WIDE, methods=["ekf"], options=3),
+        "`options` is 3, not a table by name",
+        'write options={"sr-ukf": {"kappa": 0}}',
+    ),
+    (
+        lambda: gv.compare(WALK, BOTH, [0, 1, 2], Z2, prior=WIDE, methods=3),
+        "`methods` is 3",
+        'write methods=["ekf", "sr-ckf"]',
+    ),
     (lambda: gv.read_model(None), "`path` is None, not a path", 'write read_model("model.toml")'),
     (
         lambda: gv.merge({"a": (DAYS, [1, 2, 3]), "b": ([0.0], [1])}),

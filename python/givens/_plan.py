@@ -22,7 +22,15 @@ from givens.errors import InputError, MethodError
 from givens.gaussian import Gaussian
 from givens.model_file import ModelFile
 
-__all__ = ["Track", "choose", "plan", "read_prior", "with_parameters"]
+__all__ = ["Goal", "Track", "choose", "plan", "read_prior", "with_parameters"]
+
+
+@dataclass(frozen=True)
+class Goal:
+    """What a run is after: filter, interval, lag or point."""
+
+    word: Any
+    value: float | None = None
 
 
 @dataclass(frozen=True)

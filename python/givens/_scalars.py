@@ -13,6 +13,8 @@ __all__ = ["mapping", "positive", "seed_of", "text", "threads_of", "whole"]
 
 #: The largest number of threads, steps or rows that is taken for one.
 MOST = 2**31 - 1
+#: The largest count that is no matter of memory.
+LAST_COUNT = 2**63 - 1
 #: The largest seed.
 LAST_SEED = 2**64 - 1
 

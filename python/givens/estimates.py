@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -11,23 +10,15 @@ import numpy.typing as npt
 from givens import _native
 from givens._arrays import Array, frozen
 from givens._clock import Times
-from givens._plan import Track
+from givens._plan import Goal, Track
 from givens._scalars import seed_of, whole
 from givens.consistency import Consistency, consistency_of
 from givens.errors import InputError, StepError
 
-__all__ = ["Estimates", "Goal", "step_error"]
+__all__ = ["Estimates", "step_error"]
 
 _ROWS = ("mean", "cov", "factor", "predicted_mean", "predicted_cov", "filtered_mean", "filtered_cov")
 _MEASURED = ("innovation", "innovation_cov", "nis")
-
-
-@dataclass(frozen=True)
-class Goal:
-    """What a run is after: filter, interval, lag or point."""
-
-    word: Any
-    value: float | None = None
 
 
 class Estimates:

@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 
 from givens import _native
-from givens._plan import Track, plan
+from givens._plan import Goal, Track, plan
 from givens._scalars import threads_of
 from givens.batch import Batch
 from givens.errors import InputError
-from givens.estimates import Estimates, Goal, step_error
+from givens.estimates import Estimates, step_error
 from givens.gaussian import Gaussian
 
 __all__ = ["filter", "smooth"]

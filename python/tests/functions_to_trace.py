@@ -541,7 +541,9 @@ named("slots", _Slots(2.0).drift)
 
 @traced
 def shares(t, x):
-    return [np.logaddexp(x[0], 0), np.logaddexp2(x[1], 0), np.logaddexp.reduce(x / 100), np.logaddexp(-np.inf, x[2])][:3]
+    return [np.logaddexp(x[0], 0), np.logaddexp2(x[1], 0), np.logaddexp.reduce(x / 100), np.logaddexp(-np.inf, x[2])][
+        :3
+    ]
 
 
 @traced

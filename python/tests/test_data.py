@@ -15,9 +15,7 @@ BOTH = gv.Sensor(lambda t, x: x, measures=["p", "q"], std=[1.0, 1.0], name="both
 PUSHED = gv.Transition(
     lambda t, dt, x, u: [x[0] + u[0], x[1] + u[1]], noise_cov=np.eye(2) * 0.01, state=["a", "b"], controls=["e", "f"]
 )
-SCALED = gv.Transition(
-    lambda t, dt, x, *, w=np.array([1.0, 2.0]): x * w, noise_cov=np.eye(2) * 0.01, state=["a", "b"]
-)
+SCALED = gv.Transition(lambda t, dt, x, *, w=np.array([1.0, 2.0]): x * w, noise_cov=np.eye(2) * 0.01, state=["a", "b"])
 WIDE = gv.Gaussian([1.0, 1.0], std=[1.0, 1.0])
 DAYS = np.array(["2020-01-01", "2020-01-02", "2020-01-04"], dtype="datetime64[D]")
 Z2 = np.column_stack([np.linspace(1, 2, 3), np.linspace(100, 200, 3)])
@@ -249,9 +247,7 @@ CASES = [
         "name the track of each row, or leave such rows out",
     ),
     (
-        lambda: walk(
-            pandas_frame({"time": [0, 1, 2], "p": [1] * 3, "q": [1] * 3, "track_id": ["a", "a", None]}), None
-        ),
+        lambda: walk(pandas_frame({"time": [0, 1, 2], "p": [1] * 3, "q": [1] * 3, "track_id": ["a", "a", None]}), None),
         "`track_id` is missing in row 2",
         "name the track of each row, or leave such rows out",
     ),

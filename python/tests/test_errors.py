@@ -373,7 +373,10 @@ CASES = [
     (
         lambda: gv.filter(
             gv.Transition(lambda t, dt, x: x, noise_cov=np.eye(2), state=S, step=1.0),
-            LENGTH, [0, 1, 3, 5.5], Z[:4], prior=PRIOR,
+            LENGTH,
+            [0, 1, 3, 5.5],
+            Z[:4],
+            prior=PRIOR,
         ),
         gv.InputError,
         "row 3, t = 5.5: a gap of 2.5 is not a whole number of steps of 1\n  help: put the rows on whole steps, or write the transition in `dt` and leave `step` out",
@@ -381,7 +384,10 @@ CASES = [
     (
         lambda: gv.filter(
             gv.Transition(lambda t, dt, x: x, noise_cov=np.eye(2), state=S, step=0.5),
-            LENGTH, [0, 1e300], Z[:2], prior=PRIOR,
+            LENGTH,
+            [0, 1e300],
+            Z[:2],
+            prior=PRIOR,
         ),
         gv.InputError,
         "row 1, t = 1e300: a gap of 1e300 is not a whole number of steps of 0.5\n  help: put the rows on whole steps, or write the transition in `dt` and leave `step` out",
@@ -562,7 +568,11 @@ CASES = [
         gv.InputError,
         "`options` names `ekf`, which is no method among `methods`\n  help: did you mean `cd-ekf`?",
     ),
-    (lambda: gv.merge({"a": (T, Z[:3])}), gv.InputError, "`a` has 20 times and 3 measurements\n  help: give times (rows,) and measurements (rows, d)"),
+    (
+        lambda: gv.merge({"a": (T, Z[:3])}),
+        gv.InputError,
+        "`a` has 20 times and 3 measurements\n  help: give times (rows,) and measurements (rows, d)",
+    ),
 ]
 
 

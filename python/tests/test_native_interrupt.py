@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 PREAMBLE = """
+import signal
 import sys
 import numpy as np
 import native_models as m
@@ -24,6 +25,8 @@ choice = m.choose("sr-ckf")
 solver = m.choose("cd-ckf2", "continuous", rtol=1e-13)
 def track(model, choice):
     return (model, choice, m.MEAN, m.STD, 0.0, t, z, None, None)
+# a process started in the background of a shell ignores SIGINT
+signal.signal(signal.SIGINT, signal.default_int_handler)
 print("ready", flush=True)
 try:
     {call}

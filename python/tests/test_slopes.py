@@ -40,7 +40,9 @@ def test_a_slope_that_expressions_lose_is_refused():
     for h in wrong:
         model = gv.Transition(lambda t, dt, x: x, noise_cov=[[1.0]], state=["a"])
         with pytest.raises(gv.TraceError, match=r"that of component 'z' by x\[0\] is 1, and that of its expressions 0"):
-            gv.filter(model, gv.Sensor(h, measures=["z"], std=[1.0]), [0.0], [[1.0]], prior=gv.Gaussian([0.0], std=[1.0]))
+            gv.filter(
+                model, gv.Sensor(h, measures=["z"], std=[1.0]), [0.0], [[1.0]], prior=gv.Gaussian([0.0], std=[1.0])
+            )
 
 
 def test_kinks_and_jumps_have_no_slope_to_compare():

@@ -57,12 +57,14 @@ def test_ctrl_c_ends_a_long_call_within_a_second(name: str) -> None:
         [sys.executable, "-c", program], stdout=subprocess.PIPE, text=True, cwd=Path(__file__).parent
     )
     assert started.stdout is not None
-    assert started.stdout.readline() == "ready\n"
-    time.sleep(0.5)
-    assert started.poll() is None, "the call was too short to be interrupted"
-    started.send_signal(signal.SIGINT)
-    sent = time.monotonic()
-    assert started.stdout.readline() == "interrupted\n"
-    assert time.monotonic() - sent < 1.0
-    started.kill()
-    started.wait()
+    try:
+        assert started.stdout.readline() == "ready\n"
+        time.sleep(0.5)
+        assert started.poll() is None, "the call was too short to be interrupted"
+        started.send_signal(signal.SIGINT)
+        sent = time.monotonic()
+        assert started.stdout.readline() == "interrupted\n"
+        assert time.monotonic() - sent < 1.0
+    finally:
+        started.kill()
+        started.communicate()

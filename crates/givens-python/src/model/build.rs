@@ -160,7 +160,8 @@ impl Build<'_, '_> {
             noises,
         };
         let model = ModelSde::new(self.graph.inner(), parts);
-        Ok(Continuous::traced(model.map_err(|error| self.refused("drift", error))?))
+        let model = model.map_err(|error| self.refused("drift", error))?;
+        Ok(Continuous::traced(model, self.parameters.to_vec()))
     }
 
     /// A discrete model.
@@ -195,7 +196,8 @@ impl Build<'_, '_> {
             noise_cov: self.nodes(noise_cov)?,
         };
         let model = ModelTransition::new(self.graph.inner(), parts);
-        Ok(Discrete::traced(model.map_err(|error| self.refused("transition", error))?))
+        let model = model.map_err(|error| self.refused("transition", error))?;
+        Ok(Discrete::traced(model, self.parameters.to_vec()))
     }
 
     /// What all sensors measure.

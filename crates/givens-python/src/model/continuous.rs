@@ -1,26 +1,15 @@
 //! Continuous models: traced, or with functions that are called.
 
-use std::sync::Arc;
-
 use givens::model::{At, Linear, Sde, Varies, expansion_by_duals, expansion_scratch};
 use givens::scalar::Real;
 use givens_expr::ModelSde;
 
 use super::part::Part;
+use super::shared::{Shared, Way};
 use crate::watch::go_on;
 
-/// dx = f dt + G dβ, however it was given. A clone shares everything but the values of the parameters.
-#[derive(Clone, Debug)]
-pub struct Continuous {
-    way: Arc<Way>,
-    parameters: Vec<f64>,
-}
-
-#[derive(Debug)]
-enum Way {
-    Traced(ModelSde),
-    Called(Called),
-}
+/// dx = f dt + G dβ, however it was given.
+pub type Continuous = Shared<ModelSde, Called>;
 
 /// A drift or a diffusion that is called.
 #[derive(Debug)]
@@ -33,32 +22,6 @@ pub struct Called {
     /// n × q row by row.
     pub diffusion: Part,
     pub varies: Varies,
-}
-
-impl Continuous {
-    /// Of expressions.
-    pub fn traced(model: ModelSde) -> Self {
-        let parameters = model.parameters().to_vec();
-        Self { way: Arc::new(Way::Traced(model)), parameters }
-    }
-
-    /// Of functions.
-    pub fn called(model: Called, parameters: Vec<f64>) -> Self {
-        Self { way: Arc::new(Way::Called(model)), parameters }
-    }
-
-    /// The functions, if some are called.
-    pub fn functions(&self) -> Option<&Called> {
-        match &*self.way {
-            Way::Traced(_) => None,
-            Way::Called(called) => Some(called),
-        }
-    }
-
-    /// The same with other values, as many as there are.
-    pub fn with(&self, parameters: Vec<f64>) -> Self {
-        Self { way: Arc::clone(&self.way), parameters }
-    }
 }
 
 impl Sde for Continuous {

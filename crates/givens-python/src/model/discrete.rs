@@ -1,26 +1,15 @@
 //! Discrete models: traced, or with functions that are called.
 
-use std::sync::Arc;
-
 use givens::model::{At, Linear, Noise, Transition};
 use givens::scalar::Real;
 use givens_expr::ModelTransition;
 
 use super::part::Part;
+use super::shared::{Shared, Way};
 use crate::watch::go_on;
 
-/// x(t + dt) = f + w, however it was given. A clone shares everything but the values of the parameters.
-#[derive(Clone, Debug)]
-pub struct Discrete {
-    way: Arc<Way>,
-    parameters: Vec<f64>,
-}
-
-#[derive(Debug)]
-enum Way {
-    Traced(ModelTransition),
-    Called(Called),
-}
+/// x(t + dt) = f + w, however it was given.
+pub type Discrete = Shared<ModelTransition, Called>;
 
 /// A transition or its noise that is called.
 #[derive(Debug)]
@@ -32,32 +21,6 @@ pub struct Called {
     pub next: Part,
     /// n × n row by row.
     pub noise_cov: Part,
-}
-
-impl Discrete {
-    /// Of expressions.
-    pub fn traced(model: ModelTransition) -> Self {
-        let parameters = model.parameters().to_vec();
-        Self { way: Arc::new(Way::Traced(model)), parameters }
-    }
-
-    /// Of functions.
-    pub fn called(model: Called, parameters: Vec<f64>) -> Self {
-        Self { way: Arc::new(Way::Called(model)), parameters }
-    }
-
-    /// The functions, if some are called.
-    pub fn functions(&self) -> Option<&Called> {
-        match &*self.way {
-            Way::Traced(_) => None,
-            Way::Called(called) => Some(called),
-        }
-    }
-
-    /// The same with other values, as many as there are.
-    pub fn with(&self, parameters: Vec<f64>) -> Self {
-        Self { way: Arc::clone(&self.way), parameters }
-    }
 }
 
 impl Transition for Discrete {

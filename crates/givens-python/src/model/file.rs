@@ -17,9 +17,10 @@ pub(super) fn again(file: &File, values: &[f64]) -> Result<Model> {
 }
 
 fn from_file(file: File) -> Model {
+    let values = || file.parameters.iter().map(|(_, value)| *value).collect();
     let moves = match &file.dynamics {
-        Dynamics::Discrete(model) => Moves::Discrete(Discrete::traced(model.clone())),
-        Dynamics::Continuous(model) => Moves::Continuous(Continuous::traced(model.clone())),
+        Dynamics::Discrete(model) => Moves::Discrete(Discrete::traced(model.clone(), values())),
+        Dynamics::Continuous(model) => Moves::Continuous(Continuous::traced(model.clone(), values())),
     };
     let sensing = Sensing::traced(file.observation.clone());
     let sensors = file.sensors.iter().map(|sensor| Sensor {

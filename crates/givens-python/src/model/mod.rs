@@ -9,6 +9,7 @@ mod function;
 mod part;
 mod sensing;
 mod serves;
+mod shared;
 
 use std::sync::Arc;
 

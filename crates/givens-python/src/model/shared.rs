@@ -1,0 +1,49 @@
+//! A model's dynamics, shared by all that differ from it in the values of the parameters only.
+
+use std::sync::Arc;
+
+/// Traced, as a program of expressions, or with functions that are called. A clone shares everything but the values of the
+/// parameters.
+#[derive(Debug)]
+pub struct Shared<T, C> {
+    pub way: Arc<Way<T, C>>,
+    pub parameters: Vec<f64>,
+}
+
+/// How a model was given.
+#[derive(Debug)]
+pub enum Way<T, C> {
+    Traced(T),
+    Called(C),
+}
+
+impl<T, C> Shared<T, C> {
+    /// Of expressions.
+    pub fn traced(model: T, parameters: Vec<f64>) -> Self {
+        Self { way: Arc::new(Way::Traced(model)), parameters }
+    }
+
+    /// Of functions.
+    pub fn called(model: C, parameters: Vec<f64>) -> Self {
+        Self { way: Arc::new(Way::Called(model)), parameters }
+    }
+
+    /// The functions, if some are called.
+    pub fn functions(&self) -> Option<&C> {
+        match &*self.way {
+            Way::Traced(_) => None,
+            Way::Called(called) => Some(called),
+        }
+    }
+
+    /// The same with other values, as many as there are.
+    pub fn with(&self, parameters: Vec<f64>) -> Self {
+        Self { way: Arc::clone(&self.way), parameters }
+    }
+}
+
+impl<T, C> Clone for Shared<T, C> {
+    fn clone(&self) -> Self {
+        self.with(self.parameters.clone())
+    }
+}

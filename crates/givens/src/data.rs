@@ -138,6 +138,23 @@ impl Data {
         Ok(())
     }
 
+    /// Length d of a measurement.
+    pub fn measures(&self) -> usize {
+        self.measures
+    }
+
+    /// Number of controls.
+    pub fn controls(&self) -> usize {
+        self.controls
+    }
+
+    /// Row `k`, if there is one.
+    pub fn row(&self, k: usize) -> Option<Row<'_>> {
+        let (d, c) = (self.measures, self.controls);
+        let time = *self.time.get(k)?;
+        Some(Row { time, z: &self.z[k * d..(k + 1) * d], u: &self.u[k * c..(k + 1) * c] })
+    }
+
     /// Number of rows.
     pub fn len(&self) -> usize {
         self.time.len()

@@ -1,9 +1,9 @@
-//! Batches: the outcomes of each track alone, to the bit, for any number of threads.
+//! Batches of tracks that have nothing in common: the outcomes of each alone, to the bit, for any number of threads.
 
 use core::num::NonZeroUsize;
 use core::ops::ControlFlow;
 use core::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use givens::batch::{Batch, Track};
+use givens::batch::{Batch, InstructionSet, Track};
 use givens::filter::Gaussian;
 use givens::model::{At, Noise, Observation};
 use givens::registry::resolve;
@@ -50,12 +50,12 @@ fn a_batch_is_its_tracks_one_by_one_for_any_number_of_threads() {
             let alone: Vec<_> = tracks
                 .iter()
                 .map(|track| {
-                    let Track { model, sensors, data, prior, at } = *track;
+                    let Track { model, sensors, data, prior, at, .. } = *track;
                     told(&choice.run(model, sensors, data.rows(), data.start(), prior, goal, at))
                 })
                 .collect();
             for threads in [None, Some(1), Some(2), Some(3), Some(50)] {
-                let batch = Batch { goal, threads: threads.and_then(NonZeroUsize::new), cancel: None };
+                let batch = Batch { goal, threads: threads.and_then(NonZeroUsize::new), ..Batch::default() };
                 let found = choice.run_batch(&tracks, &batch);
                 let found: Vec<_> = found.iter().map(|of| told(of.as_ref().unwrap())).collect();
                 assert_eq!(found, alone, "{name} {goal:?} {threads:?}");
@@ -143,7 +143,8 @@ fn a_batch_is_cancelled_before_the_next_row() {
         // the first track ends, the second is cancelled at its fifth row, the third is never begun
         let sensor = Cancels { sensor: &problem.sensor, at: 35, seen: AtomicUsize::new(0), cancel: &cancel };
         let tracks = [Track::new(&problem.model, &sensor, &data, &prior); 3];
-        let batch = Batch { goal, threads: one, cancel: Some(&cancel) };
+        let batch =
+            Batch { goal, threads: one, vectors: InstructionSet::Portable, cancel: Some(&cancel) };
         let found = choice.run_batch(&tracks, &batch);
         let done: Vec<bool> = found.iter().map(Option::is_some).collect();
         assert_eq!(done, [true, false, false], "{goal:?}");

@@ -1,7 +1,8 @@
-//! What a front end of run time is promised, over the whole registry: filters stepped by hand, snapshots, factors, joint draws, batches.
+//! What a front end of run time is promised, over the whole registry: filters stepped by hand, snapshots, factors, joint draws, batches, packs.
 
 mod batches;
 mod by_hand;
 mod factors;
+mod packs;
 mod samples;
 mod snapshots;

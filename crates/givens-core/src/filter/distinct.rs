@@ -2,7 +2,7 @@
 
 use super::error::Fault;
 use super::update::Rows;
-use crate::kernels::Health;
+use crate::kernels::{Health, plus_magnitudes};
 use crate::scalar::Real;
 
 /// The share of a component's steps that may be lost when they are added to its mean: its standard deviation is then
@@ -30,6 +30,7 @@ pub(super) fn distinct<T: Real>(reach: f64, mean: &[T], factor: &[T], floor: &[T
 }
 
 /// What is known of each component before an update, to judge by it after: n means, then n standard deviations.
+#[inline(always)]
 pub(super) fn note<T: Real>(mean: &[T], factor: &[T], before: &mut [T]) {
     let n = mean.len();
     let (means, deviations) = before.split_at_mut(n);
@@ -52,29 +53,32 @@ pub(super) fn judge<T: Real>(
     let n = floor.len();
     let (means, deviations) = before.split_at(n);
     let (rounding, half) = (T::of(64.0 * n as f64 * T::EPSILON), T::of(0.5));
-    let learnt = |i: usize, now: T| now.lt(half * deviations[i]);
-    let now = |i: usize| deviation(factor.row(i, i + 1));
-    let raised = |i: usize, floor: T| {
-        let left = rounding * (deviations[i] + means[i].abs());
-        T::select(exact & learnt(i, now(i)), floor.max(left), floor)
-    };
     let mut health = Health::<T>::good();
-    for (i, &floor) in floor.iter().enumerate() {
-        let now = now(i);
-        let vague = now.lt(T::of(T::EPSILON) * means[i].abs()) & raised(i, floor).lt(now);
-        health.note(learnt(i, now) & vague, i);
+    // once to judge, and once to write it down
+    for write in [false, true] {
+        for (i, floor) in floor.iter_mut().enumerate() {
+            let now = deviation(factor.row(i, i + 1));
+            let learnt = now.lt(half * deviations[i]);
+            let left = rounding * (deviations[i] + means[i].abs());
+            let raised = T::select(exact & learnt, floor.max(left), *floor);
+            if write {
+                *floor = raised;
+            } else {
+                let vague = now.lt(T::of(T::EPSILON) * means[i].abs()) & raised.lt(now);
+                health.note(learnt & vague, i);
+            }
+        }
+        if let Some(component) = health.failed() {
+            return Err(Fault::Indistinct { component });
+        }
     }
-    if let Some(component) = health.failed() {
-        return Err(Fault::Indistinct { component });
-    }
-    floor.iter_mut().enumerate().for_each(|(i, floor)| *floor = raised(i, *floor));
     Ok(health.sick)
 }
 
 /// The sum of a row's magnitudes: a standard deviation, or somewhat more.
 #[inline(always)]
 fn deviation<T: Real>(row: &[T]) -> T {
-    row.iter().fold(T::zero(), |sum, &s| sum + s.abs())
+    plus_magnitudes(T::zero(), row)
 }
 
 /// After a prediction: only what still cannot be told from the mean may be rounding of an update. What the model itself
@@ -94,10 +98,13 @@ pub(super) fn lower<T: Real>(reach: f64, before: &[T], mean: &[T], factor: &[T],
 /// Of the points of one component: Σ |step|, what of that its mean loses, and its standard deviation, at most.
 #[inline(always)]
 fn steps<T: Real>(reach: T, m: T, row: &[T]) -> (T, T, T) {
-    row.iter().fold((T::zero(), T::zero(), T::zero()), |(steps, lost, deviation), &s| {
+    let (mut steps, mut lost, mut deviation) = (T::zero(), T::zero(), T::zero());
+    for &s in row {
         let step = reach * s;
         let (up, down) = ((m + step) - m, m - (m - step));
-        let error = (up - step).abs() + (down - step).abs();
-        (steps + step.abs() + step.abs(), lost + error, deviation + s.abs())
-    })
+        steps += step.abs() + step.abs();
+        lost += (up - step).abs() + (down - step).abs();
+        deviation += s.abs();
+    }
+    (steps, lost, deviation)
 }

@@ -13,6 +13,7 @@ use crate::scalar::Real;
 
 impl<X: Method, M, T: Real, B: AsRef<[T]>> Filter<'_, X, M, T, B> {
     /// Where an array that stands `skip` scalars behind the belief's beginning stands.
+    #[inline(always)]
     fn array(&self, skip: usize, len: usize) -> &[T] {
         let Layout { shape, sizes, .. } = self.layout;
         let before =
@@ -36,18 +37,26 @@ impl<X: Method, M, T: Real, B: AsRef<[T]>> Filter<'_, X, M, T, B> {
         self.time
     }
 
+    /// Number of controls.
+    pub fn controls(&self) -> usize {
+        self.layout.sizes.controls
+    }
+
     /// The state estimate, length n.
+    #[inline(always)]
     pub fn mean(&self) -> &[T] {
         self.array(0, self.layout.sizes.states)
     }
 
     /// S with P = S Sᵀ, lower triangular n × n, diagonal ≥ 0.
+    #[inline(always)]
     pub fn factor(&self) -> &[T] {
         let n = self.layout.sizes.states;
         self.array(n, n * n)
     }
 
     /// Writes P, n × n: the filter's own in covariance form, S Sᵀ in square-root form.
+    #[inline(always)]
     pub fn write_cov(&self, cov: &mut [T]) {
         let n = self.layout.sizes.states;
         if X::Form::SQUARE_ROOT {
@@ -58,6 +67,7 @@ impl<X: Method, M, T: Real, B: AsRef<[T]>> Filter<'_, X, M, T, B> {
     }
 
     /// P itself, n × n, in covariance form; empty in square-root form.
+    #[inline(always)]
     pub(super) fn own_cov(&self) -> &[T] {
         let n = self.layout.sizes.states;
         self.array(n + n * n, if X::Form::SQUARE_ROOT { 0 } else { n * n })
@@ -72,6 +82,7 @@ impl<X: Method, M, T: Real, B: AsRef<[T]>> Filter<'_, X, M, T, B> {
     }
 
     /// Scalars of Ω or G, and of Γ.
+    #[inline(always)]
     fn back_len(&self) -> (usize, usize) {
         let n = self.layout.sizes.states;
         let square = if self.layout.smoothing { n * n } else { 0 };
@@ -81,6 +92,7 @@ impl<X: Method, M, T: Real, B: AsRef<[T]>> Filter<'_, X, M, T, B> {
     /// Of the last prediction, what a smoother needs, over all steps of its gap, both n × n: Ω and Γ in square-root form,
     /// the gain G alone in covariance form (see [`Backward`](super::Backward)). Empty unless the filter was started for
     /// smoothing.
+    #[inline(always)]
     pub fn backward(&self) -> (&[T], &[T]) {
         let (n, (square, root)) = (self.layout.sizes.states, self.back_len());
         let belief = if X::Form::SQUARE_ROOT { n + n * n } else { n + 2 * n * n };
@@ -89,6 +101,7 @@ impl<X: Method, M, T: Real, B: AsRef<[T]>> Filter<'_, X, M, T, B> {
 
     /// Of the updates since the last prediction, what a smoother needs: shift, of length n, and turn, n × n (see
     /// [`Learnt`](super::Learnt)). Empty in covariance form, and unless the filter was started for smoothing.
+    #[inline(always)]
     pub fn learnt(&self) -> (&[T], &[T]) {
         let (n, (square, root)) = (self.layout.sizes.states, self.back_len());
         let at = if X::Form::SQUARE_ROOT { n + n * n } else { n + 2 * n * n } + 2 * (square + root);
@@ -97,6 +110,7 @@ impl<X: Method, M, T: Real, B: AsRef<[T]>> Filter<'_, X, M, T, B> {
     }
 
     /// What the last measurement said; empty before the first and after an error.
+    #[inline(always)]
     pub fn innovation(&self) -> Innovation<'_, T> {
         let Sizes { states: n, measures: d, .. } = self.layout.sizes;
         let (square, root) = self.back_len();

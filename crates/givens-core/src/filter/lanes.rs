@@ -13,6 +13,12 @@ pub(crate) fn lanes<T: Real>(health: Health<T>, matrix: Matrix) -> Result<T::Mas
     }
 }
 
+/// NaN in the sick lanes, where nothing carries the mask on: they are told by what comes of it.
+#[inline(always)]
+pub(crate) fn spoil<T: Real>(sick: T::Mask, x: &mut T) {
+    *x = T::select(sick, T::of(f64::NAN), *x);
+}
+
 /// The fault of a block of two: pivots from `first` on belong to the second matrix.
 #[inline(always)]
 pub(crate) fn split<T: Real>(

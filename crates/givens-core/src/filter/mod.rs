@@ -11,6 +11,7 @@ mod gaussian;
 mod known;
 pub(crate) mod lanes;
 mod layout;
+mod lockstep;
 pub(crate) mod memory;
 mod methods;
 pub mod predict;

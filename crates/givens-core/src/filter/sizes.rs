@@ -65,6 +65,15 @@ impl Sizes {
         }
     }
 
+    /// Room for this sensor in a filter over packs, some of whose lanes may lack a component that others have.
+    #[must_use]
+    pub fn with_sensor_in_lanes<H: Observation>(self, sensor: &H, shape: Shape) -> Self {
+        let d = sensor.measures();
+        let columns = sensor.noise().columns(d) + d;
+        let sizes = self.with_sensor(sensor, shape);
+        Self { measurement_noise: sizes.measurement_noise.max(columns), ..sizes }
+    }
+
     /// Whether all of `other` fits into these.
     #[must_use]
     pub fn hold(&self, other: &Sizes) -> bool {

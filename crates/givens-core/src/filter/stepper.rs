@@ -78,6 +78,7 @@ pub(super) struct Parts<'a, T> {
 
 /// Carves the memory. The arrays that depend on the measurement's length stand last, so that the others stay where
 /// they are when the memory grows for a longer one.
+#[inline(always)]
 pub(super) fn parts<'a, T, F: Form>(layout: &Layout, mut memory: &'a mut [T]) -> Parts<'a, T> {
     let Sizes { states: n, measures: d, .. } = layout.sizes;
     let m = &mut memory;
@@ -125,6 +126,7 @@ impl<X: Over<M>, M, T: Real, B: AsMut<[T]>> Filter<'_, X, M, T, B> {
         layout::<X, M>(method, sizes, smoothing).len
     }
 
+    #[inline(always)]
     pub(super) fn parts(&mut self) -> Parts<'_, T> {
         parts::<T, X::Form>(&self.layout, self.memory.as_mut())
     }

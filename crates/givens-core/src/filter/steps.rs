@@ -8,10 +8,10 @@ use super::lanes::lanes;
 use super::methods::Over;
 use super::predict::{Given, Plan, Stopped, TimeUpdate};
 use super::stepper::{Filter, Parts, layout};
-use super::update::{InnovationMut, Measurement, update};
+use super::update::{InnovationMut, Measurement, Present, update};
 use crate::model::{At, Observation};
 use crate::rule::Rule;
-use crate::scalar::Real;
+use crate::scalar::{Mask, Real};
 
 /// Memory that may or may not be made longer.
 pub trait Grow<T>: AsRef<[T]> + AsMut<[T]> {
@@ -59,7 +59,8 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
         }
         self.stand_still();
         for k in 0..count {
-            self.one_step(from + k as f64 * dt, dt, k > 0)?;
+            let at = from + k as f64 * dt;
+            self.one_step((at, T::of(at)), (dt, T::of(dt)), k > 0)?;
         }
         self.time = t;
         self.step += usize::from(count > 0);
@@ -67,7 +68,8 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
     }
 
     /// Before the first step of a gap: G = I, and nothing unknown about the state given itself.
-    fn stand_still(&mut self) {
+    #[inline(always)]
+    pub(super) fn stand_still(&mut self) {
         let n = self.layout.sizes.states;
         self.forget_learnt();
         let total = self.parts().total;
@@ -78,13 +80,21 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
     }
 
     /// Forgets what the updates since the last prediction have learnt, once it is written down.
+    #[inline(always)]
     pub(crate) fn forget_learnt(&mut self) {
         let n = self.layout.sizes.states;
         self.parts().learnt.reset(n);
         self.moves += 1;
     }
 
-    fn one_step(&mut self, t: f64, dt: f64, chained: bool) -> Result<(), StepError> {
+    /// One step of `dt` from `t`, both also lane by lane; the lanes in which it was not done.
+    #[inline(always)]
+    pub(super) fn one_step(
+        &mut self,
+        (t, start): (f64, T),
+        (dt, length): (f64, T),
+        chained: bool,
+    ) -> Result<T::Mask, StepError> {
         let (rule, time_update) = (self.method.rule(), self.method.time_update());
         let (model, n) = (self.model, self.layout.sizes.states);
         let (smoothing, step) = (self.layout.smoothing, self.step);
@@ -92,33 +102,35 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
         let Parts { table, u, p, floor, before, mut belief, mut total, mut later, scratch, .. } =
             self.parts();
         note(belief.mean, belief.factor, before);
+        let mut blurred = T::Mask::splat(false);
         if let Some(reach) = rule.reach(n) {
-            distinct(reach, belief.mean, belief.factor, floor).map_err(|fault| StepError {
+            blurred = distinct(reach, belief.mean, belief.factor, floor).map_err(|fault| StepError {
                 fault,
                 time: t,
                 step,
             })?;
         }
-        let given = Given { rule: &rule, table, model, at: At { t: T::of(t), dt: T::of(dt), u, p } };
+        let given = Given { rule: &rule, table, model, at: At { t: start, dt: length, u, p } };
         let back = smoothing.then_some(if chained { &mut later } else { &mut total });
         let done = time_update.step::<T, _, X::Form>(&given, &mut belief, back, &mut work, scratch);
         let chain = match done {
-            Ok(_) if smoothing && chained => {
-                lanes(accumulate(n, &mut total, &later, scratch), Matrix::Conditional)
+            Ok(sick) if smoothing && chained => {
+                let chain = accumulate(n, &mut total, &later, scratch);
+                lanes(chain, Matrix::Conditional).map(|more| sick | more)
             }
             Ok(sick) => Ok(sick),
             Err(Stopped { reached, fault }) => {
                 return Err(StepError { fault, time: reached.unwrap_or(t + dt), step });
             }
         };
-        chain.map_err(|fault| StepError { fault, time: t + dt, step })?;
+        let sick = chain.map_err(|fault| StepError { fault, time: t + dt, step })?;
         if let Some(reach) = rule.reach(n) {
             lower(reach, before, belief.mean, belief.factor, floor);
         }
         self.work = work;
         self.moved = self.layout.moved;
         self.time = t + dt;
-        Ok(())
+        Ok(sick | blurred)
     }
 
     /// Teaches the belief a whole measurement of `sensor` at the present time; where components are missing,
@@ -175,6 +187,20 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
             return Err(fail(Fault::ControlsNotSet { controls: self.layout.sizes.controls }));
         }
         self.make_room(sensor).map_err(fail)?;
+        self.parts().measured[..d].iter_mut().zip(z).for_each(|(to, &z)| *to = T::of(z));
+        let present = present.map_or(Present::All, Present::Some);
+        self.learn(sensor, T::of(time), present).map(|_| ()).map_err(fail)
+    }
+
+    /// Takes in the measurement that lies ready, made at time `t`; the lanes in which that was not done.
+    #[inline(always)]
+    pub(super) fn learn<H: Observation>(
+        &mut self,
+        sensor: &H,
+        t: T,
+        present: Present<T>,
+    ) -> Result<T::Mask, Fault> {
+        let d = sensor.measures();
         let (rule, block, moved) = (self.method.rule(), self.method.block(), self.moved);
         let Parts {
             table,
@@ -193,22 +219,21 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
             scratch,
             ..
         } = self.parts();
+        let mut sick = T::Mask::splat(false);
         if let Some(reach) = rule.reach(belief.mean.len()) {
-            distinct(reach, belief.mean, belief.factor, floor).map_err(fail)?;
+            sick = distinct(reach, belief.mean, belief.factor, floor)?;
         }
-        let at = At { t: T::of(time), dt: T::zero(), u, p };
+        let at = At { t, dt: T::zero(), u, p };
         note(belief.mean, belief.factor, before);
-        let measured = &mut measured[..d];
-        measured.iter_mut().zip(z).for_each(|(to, &z)| *to = T::of(z));
         if !moved {
             belief.moved = &mut [];
         }
-        let measurement = Measurement { z: measured, present };
+        let measurement = Measurement { z: &measured[..d], present };
         let (nis, log_likelihood) = scores.split_at_mut(1);
         let (nis, log_likelihood) = (&mut nis[0], &mut log_likelihood[0]);
         let mut innovation = InnovationMut { predicted, nu, factor, white, nis, log_likelihood };
         let learning = !learnt.turn.is_empty();
-        let done = update::<_, _, _, X::Form>(
+        let updated = update::<_, _, _, X::Form>(
             &rule,
             block,
             table,
@@ -219,24 +244,27 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
             &mut innovation,
             learning,
             scratch,
-        );
-        let updated = done.map_err(fail)?;
+        )?;
+        sick = sick | updated.sick;
         let present = updated.present;
         if let Some(posterior) = updated.posterior {
-            if let Err(fault) = judge(before, posterior.factor, updated.exact, floor) {
-                scores.fill(T::zero());
-                return Err(fail(fault));
+            match judge(before, posterior.factor, updated.exact, floor) {
+                Ok(more) => sick = sick | more,
+                Err(fault) => {
+                    scores.fill(T::zero());
+                    return Err(fault);
+                }
             }
             posterior.settle(&mut belief, &mut learnt);
         }
         self.present = present;
         self.moved &= present == 0;
         self.step += 1;
-        Ok(())
+        Ok(sick)
     }
 
     /// Grows the memory for a sensor that is longer than those before, once.
-    fn make_room<H: Observation>(&mut self, sensor: &H) -> Result<(), Fault> {
+    pub(super) fn make_room<H: Observation>(&mut self, sensor: &H) -> Result<(), Fault> {
         let sizes = self.layout.sizes.with_sensor(sensor, self.layout.shape);
         if self.layout.sizes.hold(&sizes) {
             return Ok(());

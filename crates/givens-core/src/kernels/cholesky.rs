@@ -1,5 +1,6 @@
 //! Cholesky factorisation of a positive semidefinite matrix.
 
+use super::less_dot;
 use super::Health;
 use super::rest::{errors_above, norm};
 use crate::scalar::{Mask, Real};
@@ -38,7 +39,7 @@ fn factorise<T: Real>(a: &mut [T], n: usize, rounding: f64, scale: impl Fn(usize
     for j in 0..n {
         let own = a[j * n + j];
         let mut rounding = tolerance * scale(j, own);
-        let pivot = a[j * n..j * n + j].iter().fold(own, |rest, &x| (-x).mul_add(x, rest));
+        let pivot = less_dot(own, &a[j * n..j * n + j], &a[j * n..j * n + j]);
         if pivot.lt(T::of(1e-3) * own).any() {
             let above = errors_above(a, n, j, |k, row| {
                 let own = norm(row);
@@ -54,8 +55,7 @@ fn factorise<T: Real>(a: &mut [T], n: usize, rounding: f64, scale: impl Fn(usize
         let root = T::select(nothing, zero, pivot.sqrt());
         let inverse = T::select(nothing, zero, root.recip());
         for (i, below) in tail.chunks_exact_mut(n).take(n - j - 1).enumerate() {
-            let rest =
-                row[..j].iter().zip(&below[..j]).fold(below[j], |rest, (&x, &y)| (-x).mul_add(y, rest));
+            let rest = less_dot(below[j], &row[..j], below);
             // |P_ij|² ≤ P_ii P_jj: a zero pivot forces a zero column, to the rounding of both
             let own = below[j + 1 + i];
             let bound = (rounding.abs() * (own.abs() + scale(j + 1 + i, own).abs())).sqrt();

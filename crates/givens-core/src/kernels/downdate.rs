@@ -51,7 +51,10 @@ pub fn downdate<T: Real>(l: &mut [T], n: usize, stride: usize, v: &mut [T]) -> H
             let below = l[i * stride + k];
             // a zero square of the pivot forces a zero column: |A_ik|² ≤ A_kk A_ii, A_kk = r² and A_ik = L_kk · left
             let left = (below - side * v[i]).abs();
-            let row_norm = l[i * stride..=i * stride + i].iter().fold(v[i].abs(), |m, &x| m.max(x.abs()));
+            let mut row_norm = v[i].abs();
+            for &x in &l[i * stride..=i * stride + i] {
+                row_norm = row_norm.max(x.abs());
+            }
             let allowed = (rounding / size).sqrt() * (row_norm + row_norm);
             health.note(spent & !left.le(allowed), k);
             let x = (below - s * v[i]) / c;

@@ -1,5 +1,6 @@
 //! General square matrices: factors L and U with exchanged rows, and division by the matrix.
 
+use super::less_dot;
 use super::Health;
 use super::rest::norm;
 use super::solve::inverse_or_zero;
@@ -50,7 +51,10 @@ pub fn lu<T: Real>(a: &mut [T], n: usize, order: &mut [T]) -> Health<T> {
         }
         let pivot = a[k * n + k];
         // the pivot is what is left after subtracting these
-        let size = (0..k).fold(T::zero(), |sum, j| (a[k * n + j] * a[j * n + k]).abs() + sum);
+        let mut size = T::zero();
+        for j in 0..k {
+            size = (a[k * n + j] * a[j * n + k]).abs() + size;
+        }
         health.note(!(tolerance * size).lt(pivot.abs()), k);
         let inverse = inverse_or_zero(pivot);
         let (head, tail) = a.split_at_mut((k + 1) * n);
@@ -76,11 +80,11 @@ pub fn lu_solve<T: Real>(a: &[T], n: usize, order: &[T], b: &mut [T]) {
         b.swap(k, order[k].first() as usize);
     }
     for i in 1..n {
-        b[i] = a[i * n..][..i].iter().zip(&*b).fold(b[i], |rest, (&l, &x)| (-l).mul_add(x, rest));
+        b[i] = less_dot(b[i], &a[i * n..][..i], b);
     }
     for i in (0..n).rev() {
         let row = &a[i * n..][..n];
-        let rest = row[i + 1..].iter().zip(&b[i + 1..]).fold(b[i], |rest, (&u, &x)| (-u).mul_add(x, rest));
+        let rest = less_dot(b[i], &row[i + 1..], &b[i + 1..]);
         b[i] = rest / row[i];
     }
 }

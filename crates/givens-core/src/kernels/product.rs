@@ -1,6 +1,8 @@
-//! Products of small matrices.
+//! Products of small matrices, and the sums that all kernels are made of.
+//!
+//! The sums are loops, not folds: a fold that the compiler does not inline is compiled without the instructions of a pack.
 
-use crate::scalar::Real;
+use crate::scalar::{Mask, Real};
 
 /// From this length on sums are taken four at a time.
 const LONG: usize = 64;
@@ -8,7 +10,52 @@ const LONG: usize = 64;
 /// Σ aᵢ bᵢ over the shorter of both.
 #[inline(always)]
 pub fn dot<T: Real>(a: &[T], b: &[T]) -> T {
-    a.iter().zip(b).fold(T::zero(), |sum, (&a, &b)| a.mul_add(b, sum))
+    plus_dot(T::zero(), a, b)
+}
+
+/// start + Σ aᵢ bᵢ over the shorter of both.
+#[inline(always)]
+pub fn plus_dot<T: Real>(start: T, a: &[T], b: &[T]) -> T {
+    let mut sum = start;
+    for (&a, &b) in a.iter().zip(b) {
+        sum = a.mul_add(b, sum);
+    }
+    sum
+}
+
+/// start − Σ aᵢ bᵢ over the shorter of both.
+#[inline(always)]
+pub fn less_dot<T: Real>(start: T, a: &[T], b: &[T]) -> T {
+    let mut rest = start;
+    for (&a, &b) in a.iter().zip(b) {
+        rest = (-a).mul_add(b, rest);
+    }
+    rest
+}
+
+/// start + Σ |xᵢ|: a bound of every xᵢ, and not finite if one of them is not.
+#[inline(always)]
+pub fn plus_magnitudes<T: Real>(start: T, row: &[T]) -> T {
+    let mut sum = start;
+    for &x in row {
+        sum += x.abs();
+    }
+    sum
+}
+
+/// The first row, of those of length `stride`, that has a number which is finite in no lane.
+#[inline(always)]
+pub fn wild_row<T: Real>(rows: &[T], stride: usize) -> Option<usize> {
+    for (i, row) in rows.chunks_exact(stride.max(1)).enumerate() {
+        let mut wild = T::Mask::splat(false);
+        for &x in row {
+            wild = wild | !x.finite();
+        }
+        if wild.all() {
+            return Some(i);
+        }
+    }
+    None
 }
 
 /// The same in four sums side by side: the additions of a long one need not wait for each other.
@@ -67,7 +114,11 @@ pub fn square<T: Real>(p: &mut [T], n: usize, a: &[T], stride: usize, k: usize) 
 pub fn product_lower<T: Real>(a: &mut [T], rows: usize, n: usize, s: &[T], stride: usize) {
     for row in a.chunks_exact_mut(n.max(1)).take(rows) {
         for j in 0..n {
-            row[j] = (j..n).fold(T::zero(), |sum, k| row[k].mul_add(s[k * stride + j], sum));
+            let mut sum = T::zero();
+            for k in j..n {
+                sum = row[k].mul_add(s[k * stride + j], sum);
+            }
+            row[j] = sum;
         }
     }
 }

@@ -1,5 +1,6 @@
 //! How large rounding errors have become in a pivot.
 
+use super::dot;
 use super::solve::inverse_or_zero;
 use crate::scalar::Real;
 
@@ -17,8 +18,10 @@ pub(super) fn errors_above<T: Real>(
 ) -> T {
     let mut sum = T::zero();
     for a in (0..k).rev() {
-        let rest = (a + 1..k)
-            .fold(l[k * stride + a], |rest, i| (-l[i * stride + k]).mul_add(l[i * stride + a], rest));
+        let mut rest = l[k * stride + a];
+        for i in a + 1..k {
+            rest = (-l[i * stride + k]).mul_add(l[i * stride + a], rest);
+        }
         let row = &l[a * stride..=a * stride + a];
         let multiple = rest * inverse_or_zero(row[a]);
         sum = multiple.abs().mul_add(error(a, row), sum);
@@ -33,5 +36,5 @@ pub(super) fn errors_above<T: Real>(
 /// The Euclidean norm of a row.
 #[inline(always)]
 pub(super) fn norm<T: Real>(row: &[T]) -> T {
-    row.iter().fold(T::zero(), |sum, &x| x.mul_add(x, sum)).sqrt()
+    dot(row, row).sqrt()
 }

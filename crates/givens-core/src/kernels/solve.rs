@@ -1,5 +1,6 @@
 //! Substitution with triangular factors; a zero pivot gives a zero (docs/algorithms.md §2: the generalised inverse).
 
+use super::less_dot;
 use crate::scalar::Real;
 
 #[inline(always)]
@@ -12,7 +13,7 @@ pub(super) fn inverse_or_zero<T: Real>(pivot: T) -> T {
 pub fn solve_lower<T: Real>(l: &[T], stride: usize, b: &mut [T]) {
     for i in 0..b.len() {
         let row = &l[i * stride..];
-        let rest = row[..i].iter().zip(&b[..i]).fold(b[i], |rest, (&x, &y)| (-x).mul_add(y, rest));
+        let rest = less_dot(b[i], &row[..i], b);
         b[i] = rest * inverse_or_zero(row[i]);
     }
 }

@@ -1,6 +1,6 @@
 //! A sweep of Givens rotations: absorbs a linear map of a triangular factor into that factor.
 
-use super::Health;
+use super::{Health, dot};
 use crate::scalar::{Mask, Real};
 
 /// Triangularises [L D; 0 S] in place, L d × d and S n × n lower triangular, D d × n.
@@ -22,7 +22,7 @@ pub fn sweep<T: Real>(a: &mut [T], d: usize, n: usize, scratch: &mut [T]) -> Hea
     for q in 0..d {
         let row = &a[q * size..(q + 1) * size];
         let pivot = row[q];
-        let settled = row[..q].iter().fold(T::zero(), |sum, &x| x.mul_add(x, sum));
+        let settled = dot(&row[..q], &row[..q]);
         let mut sum = pivot * pivot;
         for (norm, &z) in norms.iter_mut().zip(&row[d..]).rev() {
             sum = z.mul_add(z, sum);

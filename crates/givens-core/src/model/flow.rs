@@ -1,5 +1,6 @@
 //! A continuous model as a map: its drift, or one Euler step of it; its diffusion beside it where that moves with x.
 
+use super::map::Diffusing;
 use super::{At, Linear, Map, Sde, linear_by_duals, linear_scratch};
 use crate::scalar::Real;
 
@@ -55,9 +56,7 @@ impl<M: Sde> Map for Flow<'_, M> {
         }
         if self.diffusion {
             let (n, entries) = (self.model.states(), self.entries());
-            super::points_one_by_one(n, entries, points, x, g, scratch, |x, g| {
-                self.model.diffusion(at, x, g);
-            });
+            super::points_one_by_one(n, entries, at, points, x, g, scratch, &Diffusing(self.model));
         }
     }
 
@@ -82,7 +81,7 @@ impl<M: Sde> Map for Flow<'_, M> {
             }
         }
         if self.diffusion {
-            linear_by_duals(self.entries(), at, x, s, g, scratch, |at, x, g| self.model.diffusion(at, x, g));
+            linear_by_duals(self.entries(), at, x, s, g, scratch, &Diffusing(self.model));
         }
     }
 }

@@ -1,6 +1,6 @@
 //! What a rule sees of a model: a map from the state to d numbers, some of them angles.
 
-use super::{At, Observation, Transition};
+use super::{At, Observation, Sde, Transition};
 use crate::scalar::{Dual2, Real, as_duals};
 
 /// Where the first-order part of a map g is written: its value, and the image J S of a root S by its Jacobian J.
@@ -43,9 +43,23 @@ pub trait Map {
     fn linear<T: Real>(&self, at: &At<T>, x: &[T], s: &[T], out: Linear<T>, scratch: &mut [T]);
 }
 
+/// A map at one point: what [`points_one_by_one`] and [`linear_by_duals`] go over. It is no closure, as a function can be
+/// marked to be inlined: where it is not, a pack's instructions become calls.
+pub trait AtPoint {
+    /// Evaluates the map at `x`.
+    fn at_point<T: Real>(&self, at: &At<T>, x: &[T], out: &mut [T]);
+}
+
 /// The transition of a model, as a map.
 #[derive(Clone, Copy, Debug)]
-pub struct Moving<'a, M>(pub &'a M);
+pub struct Moving<'a, M: ?Sized>(pub &'a M);
+
+impl<M: Transition + ?Sized> AtPoint for Moving<'_, M> {
+    #[inline(always)]
+    fn at_point<T: Real>(&self, at: &At<T>, x: &[T], out: &mut [T]) {
+        self.0.transition(at, x, out);
+    }
+}
 
 impl<M: Transition> Map for Moving<'_, M> {
     fn outputs(&self) -> usize {
@@ -66,7 +80,36 @@ impl<M: Transition> Map for Moving<'_, M> {
 
 /// The measures of a sensor, as a map.
 #[derive(Clone, Copy, Debug)]
-pub struct Sensed<'a, H>(pub &'a H);
+pub struct Sensed<'a, H: ?Sized>(pub &'a H);
+
+impl<H: Observation + ?Sized> AtPoint for Sensed<'_, H> {
+    #[inline(always)]
+    fn at_point<T: Real>(&self, at: &At<T>, x: &[T], out: &mut [T]) {
+        self.0.observe(at, x, out);
+    }
+}
+
+/// The drift of a continuous model, as a map.
+#[derive(Clone, Copy, Debug)]
+pub struct Drifting<'a, M: ?Sized>(pub &'a M);
+
+impl<M: Sde + ?Sized> AtPoint for Drifting<'_, M> {
+    #[inline(always)]
+    fn at_point<T: Real>(&self, at: &At<T>, x: &[T], out: &mut [T]) {
+        self.0.drift(at, x, out);
+    }
+}
+
+/// The entries of the diffusion of a continuous model, row by row, as a map.
+#[derive(Clone, Copy, Debug)]
+pub struct Diffusing<'a, M: ?Sized>(pub &'a M);
+
+impl<M: Sde + ?Sized> AtPoint for Diffusing<'_, M> {
+    #[inline(always)]
+    fn at_point<T: Real>(&self, at: &At<T>, x: &[T], out: &mut [T]) {
+        self.0.diffusion(at, x, out);
+    }
+}
 
 impl<H: Observation> Map for Sensed<'_, H> {
     fn outputs(&self) -> usize {
@@ -99,11 +142,12 @@ pub const fn points_scratch(n: usize, d: usize) -> usize {
 pub fn points_one_by_one<T: Real>(
     n: usize,
     d: usize,
+    at: &At<T>,
     points: usize,
     x: &[T],
     out: &mut [T],
     scratch: &mut [T],
-    map: impl Fn(&[T], &mut [T]),
+    map: &impl AtPoint,
 ) {
     let (point, rest) = scratch.split_at_mut(n);
     let image = &mut rest[..d];
@@ -111,7 +155,7 @@ pub fn points_one_by_one<T: Real>(
         for i in 0..n {
             point[i] = x[i * points + j];
         }
-        map(point, image);
+        map.at_point(at, point, image);
         for i in 0..d {
             out[i * points + j] = image[i];
         }
@@ -133,7 +177,7 @@ pub fn linear_by_duals<T: Real>(
     s: &[T],
     out: Linear<T>,
     scratch: &mut [T],
-    map: impl Fn(&At<Dual2<T>>, &[Dual2<T>], &mut [Dual2<T>]),
+    map: &impl AtPoint,
 ) {
     let (n, Linear { value, image, stride }) = (x.len(), out);
     let (point, rest) = as_duals(scratch).split_at_mut(n);
@@ -148,7 +192,7 @@ pub fn linear_by_duals<T: Real>(
         for i in 0..n {
             point[i] = Dual2::along(x[i], s[i * n + j]);
         }
-        map(&at, point, y);
+        map.at_point(&at, point, y);
         for i in 0..d {
             image[i * stride + j] = y[i].d;
             value[i] = y[i].v;

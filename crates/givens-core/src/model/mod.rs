@@ -14,7 +14,7 @@ pub(crate) use expanded::expanded_scratch;
 pub use flow::Flow;
 pub(crate) use flow::flow_scratch;
 pub use map::{
-    Linear, Map, Moving, Sensed, linear_by_duals, linear_scratch, points_one_by_one, points_scratch,
+    AtPoint, Linear, Map, Moving, Sensed, linear_by_duals, linear_scratch, points_one_by_one, points_scratch,
 };
 pub use observation::Observation;
 pub(crate) use sde::drift_scratch;

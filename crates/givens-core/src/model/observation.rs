@@ -1,6 +1,6 @@
 //! Sensors.
 
-use super::map::{Linear, linear_by_duals, linear_scratch, points_one_by_one, points_scratch};
+use super::map::{Linear, Sensed, linear_by_duals, linear_scratch, points_one_by_one, points_scratch};
 use super::{At, Noise};
 use crate::kernels::{Health, cholesky};
 use crate::scalar::Real;
@@ -64,6 +64,7 @@ pub trait Observation {
 
     /// Writes the root of the noise that filters work with, d × columns; health names the pivot of a covariance
     /// that is not positive semidefinite.
+    #[inline(always)]
     fn noise_root<T: Real>(&self, at: &At<T>, root: &mut [T]) -> Health<T> {
         self.measurement_noise(at, root);
         match self.noise() {
@@ -80,14 +81,16 @@ pub trait Observation {
     }
 
     /// All points at once: `x` is n × `points` and `out` d × `points`, component by component.
+    #[inline(always)]
     fn observe_points<T: Real>(&self, at: &At<T>, points: usize, x: &[T], out: &mut [T], scratch: &mut [T]) {
         let (n, d) = (self.states(), self.measures());
-        points_one_by_one(n, d, points, x, out, scratch, |x, out| self.observe(at, x, out));
+        points_one_by_one(n, d, at, points, x, out, scratch, &Sensed(self));
     }
 
     /// The first-order part: h(x), and H S with H = ∂h/∂x and `s` = S, n × n.
+    #[inline(always)]
     fn observe_linear<T: Real>(&self, at: &At<T>, x: &[T], s: &[T], out: Linear<T>, scratch: &mut [T]) {
         let d = self.measures();
-        linear_by_duals(d, at, x, s, out, scratch, |at, x, out| self.observe(at, x, out));
+        linear_by_duals(d, at, x, s, out, scratch, &Sensed(self));
     }
 }

@@ -1,7 +1,7 @@
 //! Continuous-time dynamics.
 
 use super::At;
-use super::map::{Linear, linear_by_duals, linear_scratch, points_one_by_one, points_scratch};
+use super::map::{Drifting, Linear, linear_by_duals, linear_scratch, points_one_by_one, points_scratch};
 use crate::scalar::{Dual2, Real, as_duals};
 
 /// What the diffusion G of an [`Sde`] depends on.
@@ -74,14 +74,16 @@ pub trait Sde {
     }
 
     /// The drift at all points at once: `x` and `out` are n × `points`, component by component.
+    #[inline(always)]
     fn drift_points<T: Real>(&self, at: &At<T>, points: usize, x: &[T], out: &mut [T], scratch: &mut [T]) {
         let n = self.states();
-        points_one_by_one(n, n, points, x, out, scratch, |x, out| self.drift(at, x, out));
+        points_one_by_one(n, n, at, points, x, out, scratch, &Drifting(self));
     }
 
     /// The first-order part: f(x) and J S, with J = ∂f/∂x and `s` = S, n × n.
+    #[inline(always)]
     fn drift_linear<T: Real>(&self, at: &At<T>, x: &[T], s: &[T], out: Linear<T>, scratch: &mut [T]) {
-        linear_by_duals(self.states(), at, x, s, out, scratch, |at, x, out| self.drift(at, x, out));
+        linear_by_duals(self.states(), at, x, s, out, scratch, &Drifting(self));
     }
 
     /// Scalars of scratch that [`expansion_points`](Self::expansion_points) needs for `points` points.
@@ -94,6 +96,7 @@ pub trait Sde {
     /// The drift and its two Itô derivatives at all points at once, component by component (docs/algorithms.md C2, C3):
     /// f to `f` and L₀f to `l0`, n × `points`; row i q + j of `lf` is component i of Lf = J G along noise j.
     /// 1 + q evaluations for each point.
+    #[inline(always)]
     fn expansion_points<T: Real>(
         &self,
         at: &At<T>,

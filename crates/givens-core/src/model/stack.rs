@@ -5,6 +5,7 @@ use crate::kernels::Health;
 use crate::scalar::Real;
 
 /// Copies a d × `from` matrix into the top left of rows of length `to`, last row first, and clears the rest.
+#[inline(always)]
 fn widen<T: Real>(block: &mut [T], d: usize, from: usize, to: usize) {
     for i in (0..d).rev() {
         for j in (0..to).rev() {
@@ -45,6 +46,7 @@ impl<A: Observation, B: Observation> Observation for (A, B) {
         let health = self.noise_root(at, out);
         out[0] = T::select(health.sick, T::of(f64::NAN), out[0]);
     }
+    #[inline(always)]
     fn noise_root<T: Real>(&self, at: &At<T>, root: &mut [T]) -> Health<T> {
         let (da, db) = (self.0.measures(), self.1.measures());
         let (qa, qb) = (self.0.noise().columns(da), self.1.noise().columns(db));

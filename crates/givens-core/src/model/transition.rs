@@ -1,6 +1,6 @@
 //! Discrete-time dynamics.
 
-use super::map::{Linear, linear_by_duals, linear_scratch, points_one_by_one, points_scratch};
+use super::map::{Linear, Moving, linear_by_duals, linear_scratch, points_one_by_one, points_scratch};
 use super::{At, Noise};
 use crate::kernels::{Health, cholesky};
 use crate::scalar::Real;
@@ -60,6 +60,7 @@ pub trait Transition {
 
     /// Writes the root of the noise that filters work with, n × columns; health names the pivot of a covariance
     /// that is not positive semidefinite.
+    #[inline(always)]
     fn noise_root<T: Real>(&self, at: &At<T>, root: &mut [T]) -> Health<T> {
         self.process_noise(at, root);
         match self.noise() {
@@ -76,6 +77,7 @@ pub trait Transition {
     }
 
     /// All points at once: `x` and `out` are n × `points`, component by component.
+    #[inline(always)]
     fn transition_points<T: Real>(
         &self,
         at: &At<T>,
@@ -85,12 +87,13 @@ pub trait Transition {
         scratch: &mut [T],
     ) {
         let n = self.states();
-        points_one_by_one(n, n, points, x, out, scratch, |x, out| self.transition(at, x, out));
+        points_one_by_one(n, n, at, points, x, out, scratch, &Moving(self));
     }
 
     /// The first-order part: f(x), and J S with J = ∂f/∂x and `s` = S, n × n.
+    #[inline(always)]
     fn transition_linear<T: Real>(&self, at: &At<T>, x: &[T], s: &[T], out: Linear<T>, scratch: &mut [T]) {
         let n = self.states();
-        linear_by_duals(n, at, x, s, out, scratch, |at, x, out| self.transition(at, x, out));
+        linear_by_duals(n, at, x, s, out, scratch, &Moving(self));
     }
 }

@@ -39,6 +39,7 @@ impl<T: Real> Explicit<'_, T> {
     }
 
     /// The slopes at the start and at the end.
+    #[inline(always)]
     fn ends(&self) -> (&[T], &[T]) {
         (&self.k[..self.len], &self.k[self.tableau.stages * self.len..])
     }
@@ -48,10 +49,12 @@ impl<T: Real, S: System> Method<T, S> for Explicit<'_, T> {
     // that of the one pair among them
     const ERROR_ORDER: i32 = 5;
 
+    #[inline(always)]
     fn start(&mut self, field: &mut Field<S, T>, t: T, y: &[T]) -> Result<(), Failed<S::Fault>> {
         field.slope(t, y, &mut self.k[..self.len])
     }
 
+    #[inline(always)]
     fn step(
         &mut self,
         field: &mut Field<S, T>,
@@ -72,10 +75,12 @@ impl<T: Real, S: System> Method<T, S> for Explicit<'_, T> {
         Ok(())
     }
 
+    #[inline(always)]
     fn finish(&mut self, field: &mut Field<S, T>, t: T, end: &[T]) -> Result<(), Failed<S::Fault>> {
         field.slope(t, end, &mut self.k[self.tableau.stages * self.len..][..self.len])
     }
 
+    #[inline(always)]
     fn slopes(&self) -> (&[T], &[T]) {
         self.ends()
     }
@@ -84,11 +89,13 @@ impl<T: Real, S: System> Method<T, S> for Explicit<'_, T> {
         self.increment(self.tableau.error, h, error);
     }
 
+    #[inline(always)]
     fn curve(&self, h: T, y: &[T], end: &[T], ended: bool, curve: &mut [T]) {
         hermite(h, y, end, self.ends(), ended, curve);
         self.increment(self.tableau.dense, h, &mut curve[2 * self.len..]);
     }
 
+    #[inline(always)]
     fn accept(&mut self) {
         let last = self.tableau.stages * self.len;
         self.k.copy_within(last..last + self.len, 0);

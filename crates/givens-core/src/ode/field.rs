@@ -18,6 +18,7 @@ pub(super) struct Field<'a, S, T> {
 
 impl<S: System, T: Real> Field<'_, S, T> {
     /// f(t, y) to `dy`, a finite number in every component.
+    #[inline(always)]
     pub fn slope(&mut self, t: T, y: &[T], dy: &mut [T]) -> Result<(), Failed<S::Fault>> {
         self.calls += 1;
         let at = At { t, dt: T::zero(), u: self.u, p: self.p };

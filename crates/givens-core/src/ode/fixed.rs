@@ -7,6 +7,7 @@ use crate::model::At;
 use crate::scalar::Real;
 
 /// How many steps a gap takes, if not more than `limit`. The count is that of the first lane.
+#[inline(always)]
 fn count<T: Real>(steps: Steps, gap: f64, limit: usize) -> Option<usize> {
     let count = match steps {
         Steps::Count(count) => count,
@@ -21,6 +22,7 @@ fn count<T: Real>(steps: Steps, gap: f64, limit: usize) -> Option<usize> {
 }
 
 /// Integrates over the gap; `end` has the length of the state, `curve` three times that.
+#[inline(always)]
 pub(super) fn fixed<T: Real, S: System, M: Method<T, S>>(
     method: &mut M,
     field: &mut Field<S, T>,

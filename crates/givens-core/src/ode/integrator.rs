@@ -151,6 +151,12 @@ impl Integrator {
         5 * len + system + method
     }
 
+    /// Whether several lanes may be integrated together: the number of steps depends on none of them.
+    #[must_use]
+    pub fn lockstep(&self) -> bool {
+        !self.solver.adaptive() && matches!(self.steps, Steps::Count(_))
+    }
+
     /// Moves `y` from time `at.t` over `at.dt`, which may be negative; `visit` sees every accepted step.
     ///
     /// `table` is the system's own data; `work` counts; `scratch` has [`scratch`](Self::scratch) scalars. Steps of
@@ -159,6 +165,7 @@ impl Integrator {
     ///
     /// # Errors
     /// Where and why the integration ended early; `y` is then the state at that time.
+    #[inline(always)]
     pub fn solve<T: Real, S: System>(
         &self,
         system: &S,
@@ -176,6 +183,7 @@ impl Integrator {
     ///
     /// # Errors
     /// As there.
+    #[inline(always)]
     pub fn advance<T: Real, S: System>(
         &self,
         system: &S,
@@ -188,6 +196,7 @@ impl Integrator {
         self.run(system, at, table, y, work, None, scratch)
     }
 
+    #[inline(always)]
     fn run<T: Real, S: System>(
         &self,
         system: &S,

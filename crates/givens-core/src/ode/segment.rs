@@ -22,6 +22,7 @@ impl<T: Real> Segment<'_, T> {
     ///
     /// It is of order 4 for `dp5`, and else a cubic, of order 3. A cubic that lacks the slope at its end, because the
     /// system has no derivative where the gap ends, is the parabola of the rest.
+    #[inline(always)]
     pub fn at(&self, theta: f64, y: &mut [T]) {
         let (x, rest) = (T::of(theta), T::of(1.0 - theta));
         let n = self.start.len();
@@ -37,6 +38,7 @@ impl<T: Real> Segment<'_, T> {
 pub(super) type Visit<'v, T> = Option<&'v mut dyn FnMut(&Segment<T>)>;
 
 /// The cubic through both ends with the slopes there.
+#[inline(always)]
 pub(super) fn hermite<T: Real>(h: T, y: &[T], end: &[T], slopes: (&[T], &[T]), ended: bool, curve: &mut [T]) {
     let (second, rest) = curve.split_at_mut(y.len());
     let (third, fourth) = rest.split_at_mut(y.len());

@@ -61,7 +61,9 @@ impl Rule for CentralDifference {
         let eta = T::of(self.eta);
         let eta2 = self.eta * self.eta;
         let offsets = |i: usize, steps: &mut [T]| {
-            steps.iter_mut().zip(&factor[i * n..]).for_each(|(step, &s)| *step = eta * s);
+            for (step, &s) in steps.iter_mut().zip(&factor[i * n..]) {
+                *step = eta * s;
+            }
         };
         let images = evaluate(g, at, mean, n, true, offsets, scratch);
         let (odd, half_bend) = (T::of(0.5 / self.eta), T::of(0.5 / eta2));

@@ -23,6 +23,7 @@ pub use points::{Pairs, PointRule};
 pub use taylor::Taylor;
 pub use unscented::Unscented;
 
+use crate::kernels::plus_magnitudes;
 use crate::model::{At, Map};
 use crate::scalar::{Mask, Real, Shown};
 
@@ -57,15 +58,20 @@ impl<T: Real> Spread<'_, T> {
     /// The first component, if any, that is not finite in every lane; `columns` = n + plus.
     #[inline(always)]
     pub fn not_finite(&self, columns: usize) -> Option<usize> {
-        self.mean.iter().zip(self.dev.chunks_exact(self.stride)).position(|(&mean, row)| {
+        for (i, (&mean, row)) in self.mean.iter().zip(self.dev.chunks_exact(self.stride)).enumerate() {
             let (quads, rest) = row[..columns].as_chunks::<4>();
             let mut sums = [mean.abs(), T::zero(), T::zero(), T::zero()];
             for quad in quads {
-                (0..4).for_each(|k| sums[k] += quad[k].abs());
+                for k in 0..4 {
+                    sums[k] += quad[k].abs();
+                }
             }
-            let sum = rest.iter().fold((sums[0] + sums[1]) + (sums[2] + sums[3]), |sum, &x| sum + x.abs());
-            (!sum.finite()).all()
-        })
+            let sum = plus_magnitudes((sums[0] + sums[1]) + (sums[2] + sums[3]), rest);
+            if (!sum.finite()).all() {
+                return Some(i);
+            }
+        }
+        None
     }
 }
 

@@ -158,20 +158,24 @@ fn along_axes<T: Real, G: Map>(
     let (n, radius) = (mean.len(), Real::sqrt(radius2));
     let rho = T::of(radius);
     let offsets = |i: usize, steps: &mut [T]| {
-        steps.iter_mut().zip(&factor[i * n..]).for_each(|(step, &s)| *step = rho * s);
+        for (step, &s) in steps.iter_mut().zip(&factor[i * n..]) {
+            *step = rho * s;
+        }
     };
     let images = evaluate(g, at, mean, n, centred, offsets, scratch);
     // without a centre, n/radius² = 1
     let shift = if centred { n as f64 / radius2 } else { 1.0 };
     let (share, shift) = (T::of(1.0 / n as f64), T::of(shift));
-    let (odd, even, half) = (T::of(0.5 / radius), T::of(1.0 / radius), T::of(0.5));
+    let (odd, even) = (T::of(0.5 / radius), T::of(1.0 / radius));
     let curvature = T::of(Real::sqrt(Real::abs(bend)));
     for i in 0..g.outputs() {
         let (plus, minus, at_mean) = images.row(i);
         // a component without spread must have no deviation, not one of rounding, which would pass for a direction
         let near = if centred { at_mean.unwrap_or(plus[0]) } else { plus[0] };
-        let middle = |p: T, m: T| half * ((p - near) + (m - near));
-        let sum = plus.iter().zip(minus).fold(T::zero(), |sum, (&p, &m)| sum + middle(p, m));
+        let mut sum = T::zero();
+        for (&p, &m) in plus.iter().zip(minus) {
+            sum += middle(p, m, near);
+        }
         let average = share * sum;
         let row = &mut out.dev[i * out.stride..(i + 1) * out.stride];
         for l in 0..n {
@@ -183,7 +187,7 @@ fn along_axes<T: Real, G: Map>(
             continue;
         }
         for l in 0..n {
-            row[n + l] = even * (middle(plus[l], minus[l]) - average);
+            row[n + l] = even * (middle(plus[l], minus[l], near) - average);
         }
         if bend > 0.0 {
             row[2 * n] = curvature * b;
@@ -213,7 +217,9 @@ fn from_table<T: Real, G: Map>(
     let offsets = |i: usize, steps: &mut [T]| {
         steps.fill(T::zero());
         for (&s, xi) in factor[i * n..=i * n + i].iter().zip(nodes.chunks_exact(count)) {
-            steps.iter_mut().zip(xi).for_each(|(step, &xi)| *step = s.mul_add(xi, *step));
+            for (step, &xi) in steps.iter_mut().zip(xi) {
+                *step = s.mul_add(xi, *step);
+            }
         }
     };
     let images = evaluate(g, at, mean, count, centre.is_some(), offsets, scratch);
@@ -227,7 +233,11 @@ fn from_table<T: Real, G: Map>(
         let row = &mut out.dev[i * out.stride..(i + 1) * out.stride];
         let lost = &mut out.minus[i * minus_columns..(i + 1) * minus_columns];
         let first = plus[0];
-        if plus.iter().chain(minus).chain(&reference).all(|y| y.same(first).all()) {
+        let mut level = T::Mask::splat(true);
+        for y in plus.iter().chain(minus).chain(&reference) {
+            level = level & y.same(first);
+        }
+        if level.all() {
             out.mean[i] = first;
             let columns = row.len().min(n + plus_columns);
             row[..columns].fill(T::zero());
@@ -260,12 +270,22 @@ fn from_table<T: Real, G: Map>(
                 *odd = half * (p - m);
             }
             for (&d, xi) in moved.iter().zip(nodes.chunks_exact(count)) {
-                odd.iter_mut().zip(&xi[range.clone()]).for_each(|(odd, &xi)| *odd = (-d).mul_add(xi, *odd));
+                for (odd, &xi) in odd.iter_mut().zip(&xi[range.clone()]) {
+                    *odd = (-d).mul_add(xi, *odd);
+                }
             }
-            odd.iter_mut().zip(&scales[range]).for_each(|(odd, &scale)| *odd *= scale);
+            for (odd, &scale) in odd.iter_mut().zip(&scales[range]) {
+                *odd *= scale;
+            }
         }
         put_centre(centre, reference, ybar, middle, lost.last_mut());
     }
+}
+
+/// Halfway between two images, seen from a third: no rounding where all are equal.
+#[inline(always)]
+fn middle<T: Real>(plus: T, minus: T, near: T) -> T {
+    T::of(0.5) * ((plus - near) + (minus - near))
 }
 
 /// The centre's column √|w| (y₀ − ȳ), among the positive or the negative ones by the sign of its weight.

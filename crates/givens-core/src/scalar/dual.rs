@@ -24,6 +24,7 @@ pub struct Dual2<T> {
 /// assert_eq!(givens_core::scalar::as_duals(&mut memory).len(), 2);
 /// ```
 #[allow(unsafe_code)]
+#[inline(always)]
 pub fn as_duals<T: Real>(memory: &mut [T]) -> &mut [Dual2<T>] {
     // SAFETY: `Dual2<T>` is three `T` in `repr(C)`: same alignment, three times the size, no padding, and
     // any three `T` are a valid dual. The slice keeps the borrow of `memory`.

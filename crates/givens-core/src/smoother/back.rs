@@ -27,6 +27,7 @@ pub(super) struct Passage<'a, T> {
 
 impl<'a, T> Passage<'a, T> {
     /// The arrays of one record; `before` is the predicted covariance of the one before it.
+    #[inline(always)]
     pub fn of(record: &'a [T], before: &'a [T], n: usize) -> Self {
         let (mean, rest) = record.split_at(n);
         let (cov, rest) = rest.split_at(n * n);

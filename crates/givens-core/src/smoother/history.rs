@@ -67,6 +67,7 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
     }
 
     /// Whether a belief of n `states` in this form goes with these records, and these into the memory.
+    #[inline(always)]
     pub(super) fn room(&mut self, states: usize, square_root: bool) -> Result<(), Fault> {
         if self.square_root != square_root {
             return Err(OTHER_FORM);
@@ -84,6 +85,7 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
     }
 
     /// Whether the filter goes with this history.
+    #[inline(always)]
     pub(super) fn fits<X: Over<M>, M, C: Grow<T>>(
         &mut self,
         filter: &Filter<'_, X, M, T, C>,
@@ -97,6 +99,7 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
     ///
     /// # Errors
     /// Those of [`Filter::predict`], or a filter that does not go with this history; nothing is recorded then.
+    #[inline(always)]
     pub fn predict<X: Over<M>, M, C: Grow<T>>(
         &mut self,
         filter: &mut Filter<'_, X, M, T, C>,
@@ -105,6 +108,23 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
         if self.capacity == 0 {
             return filter.predict(t);
         }
+        self.open(filter)?;
+        let start = filter.time();
+        let done = filter.predict(t);
+        if done.is_ok() || filter.time() == start {
+            self.seen = filter.moves();
+        }
+        done?;
+        self.append(filter);
+        Ok(())
+    }
+
+    /// Closes the newest record, and notes the belief from which the next one starts.
+    #[inline(always)]
+    pub(super) fn open<X: Over<M>, M, C: Grow<T>>(
+        &mut self,
+        filter: &mut Filter<'_, X, M, T, C>,
+    ) -> Result<(), StepError> {
         self.close(filter)?;
         // the belief before waits in memory of the way back: in a full ring, its record is still the oldest one's
         let n = self.states;
@@ -115,12 +135,13 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
         } else {
             filter.write_cov(&mut rest[..n * n]);
         }
-        let start = filter.time();
-        let done = filter.predict(t);
-        if done.is_ok() || filter.time() == start {
-            self.seen = filter.moves();
-        }
-        done?;
+        Ok(())
+    }
+
+    /// Records the prediction that has just been made.
+    #[inline(always)]
+    pub(super) fn append<X: Over<M>, M, C: Grow<T>>(&mut self, filter: &Filter<'_, X, M, T, C>) {
+        let n = self.states;
         let slot = (self.oldest + self.count) % self.capacity;
         let (records, belief) = self.memory.as_mut().split_at_mut(self.capacity * Self::record_len(n));
         let mut record = &mut records[slot * Self::record_len(n)..][..Self::record_len(n)];
@@ -139,7 +160,6 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
         } else {
             self.count += 1;
         }
-        Ok(())
     }
 
     /// Completes the newest record, in square-root form, by what the updates at its end have learnt. [`predict`](Self::predict)
@@ -147,6 +167,7 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
     ///
     /// # Errors
     /// A filter that does not go with this history.
+    #[inline(always)]
     pub fn close<X: Over<M>, M, C: Grow<T>>(
         &mut self,
         filter: &mut Filter<'_, X, M, T, C>,
@@ -173,6 +194,7 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
     }
 
     /// The records, and memory beside them.
+    #[inline(always)]
     pub(super) fn carve(&mut self) -> (&[T], &mut [T]) {
         let (records, rest) =
             self.memory.as_mut().split_at_mut(self.capacity * Self::record_len(self.states));
@@ -190,6 +212,7 @@ pub(super) const UNFOLLOWED: Fault = Fault::Mismatch {
 };
 
 /// A filter must leave what its smoother needs.
+#[inline(always)]
 pub(super) fn for_smoothing<X: Over<M>, M, T: Real, C: Grow<T>>(
     filter: &Filter<'_, X, M, T, C>,
 ) -> Result<(), Fault> {

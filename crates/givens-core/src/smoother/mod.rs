@@ -7,6 +7,7 @@
 mod back;
 mod fixed_point;
 mod history;
+mod lockstep;
 mod rotated;
 mod sample;
 mod way_back;

@@ -1,6 +1,7 @@
 //! One step back in square-root form, in the coordinates of the roots (docs/algorithms.md S2–S5).
 
 use crate::filter::backward::{multiply, multiply_lower};
+use crate::filter::lanes::spoil;
 use crate::filter::memory::{put_columns, take};
 use crate::filter::{Belief, Learnt};
 use crate::kernels::{copy_lower, tria};
@@ -24,6 +25,7 @@ pub(super) struct Rotated<'a, T> {
 
 impl<'a, T> Rotated<'a, T> {
     /// The arrays of one record.
+    #[inline(always)]
     pub fn of(record: &'a [T], n: usize) -> Self {
         let (mean, rest) = record.split_at(n);
         let (factor, rest) = rest.split_at(n * n);
@@ -47,6 +49,7 @@ pub(super) struct Coordinates<'a, T> {
 
 impl<'a, T: Real> Coordinates<'a, T> {
     /// From what the updates since the last prediction have learnt, or, if that is empty, from the present belief itself.
+    #[inline(always)]
     pub fn start(n: usize, shift: &[T], turn: &[T], memory: &mut &'a mut [T]) -> Self {
         let (mean, root) = (take(memory, n), take(memory, n * n));
         if turn.is_empty() {
@@ -59,6 +62,7 @@ impl<'a, T: Real> Coordinates<'a, T> {
     }
 
     /// To the coordinates of the record's belief.
+    #[inline(always)]
     pub fn mean_back(&mut self, record: &Rotated<T>, scratch: &mut [T]) {
         let n = self.mean.len();
         let moved = &mut scratch[..n];
@@ -70,6 +74,7 @@ impl<'a, T: Real> Coordinates<'a, T> {
     }
 
     /// The same with the root.
+    #[inline(always)]
     pub fn back(&mut self, record: &Rotated<T>, mut scratch: &mut [T]) {
         let n = self.mean.len();
         self.mean_back(record, scratch);
@@ -78,11 +83,13 @@ impl<'a, T: Real> Coordinates<'a, T> {
         multiply(product, n, record.gain, self.root);
         put_columns(wide, 2 * n, 0, record.conditional, n);
         put_columns(wide, 2 * n, n, product, n);
-        let _ = tria(wide, n, 2 * n, 2 * n);
+        let health = tria(wide, n, 2 * n, 2 * n);
         copy_lower(self.root, n, wide, 2 * n);
+        spoil(health.sick, &mut self.root[0]);
     }
 
     /// mˢ = m + S u.
+    #[inline(always)]
     pub fn write_mean(&self, record: &Rotated<T>, mean: &mut [T]) {
         let n = mean.len();
         for (i, m) in mean.iter_mut().enumerate() {
@@ -92,6 +99,7 @@ impl<'a, T: Real> Coordinates<'a, T> {
     }
 
     /// mˢ, and Sˢ = S times the root.
+    #[inline(always)]
     pub fn write(&self, record: &Rotated<T>, belief: &mut Belief<T>) {
         self.write_mean(record, belief.mean);
         multiply_lower(belief.factor, belief.mean.len(), record.factor, self.root);

@@ -34,6 +34,7 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
     ///
     /// # Errors
     /// A smoothed covariance that is not positive semidefinite, in covariance form; the time is the filter's.
+    #[inline(always)]
     pub fn smooth<X: Over<M>, M, C: Grow<T>, A: Answer>(
         &mut self,
         filter: &Filter<'_, X, M, T, C>,
@@ -138,6 +139,7 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
         Ok(())
     }
 
+    #[inline(always)]
     fn go_back<A: Answer>(
         &mut self,
         time: f64,
@@ -224,6 +226,7 @@ impl<T: Real> Smoothed<'_, T> {
 }
 
 /// The belief on its way back.
+#[inline(always)]
 pub(super) fn present<'a, T>(n: usize, memory: &mut &'a mut [T]) -> Belief<'a, T> {
     Belief { mean: take(memory, n), factor: take(memory, n * n), cov: take(memory, n * n), moved: &mut [] }
 }

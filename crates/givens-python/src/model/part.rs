@@ -124,6 +124,6 @@ impl Part {
             }
             return;
         }
-        linear_by_duals(d, at, x, s, out, scratch, |at, x, out| self.one(at, x, out));
+        linear_by_duals(d, at, x, s, out, scratch, self);
     }
 }

@@ -1,14 +1,21 @@
-//! Many trajectories side by side, on all cores.
+//! Many trajectories side by side: in packs of as many as a register holds, on all cores.
 
+mod lockstep;
+mod pack;
+mod record;
 mod workers;
 
 use crate::Data;
-use crate::filter::{Gaussian, Over};
+use crate::filter::{Fault, Gaussian, Over, StepError};
 use crate::model::Observation;
 use crate::run::{Goal, Outcome, run_until, stopped};
 use core::num::NonZeroUsize;
 use core::sync::atomic::AtomicBool;
+use lockstep::Lockstep;
+use pack::{Unit, packable, units};
 use workers::each;
+
+pub use crate::scalar::InstructionSet;
 
 /// One trajectory of a batch: its measurements and its prior, over a model and sensors that may be its own.
 #[derive(Debug)]
@@ -21,14 +28,16 @@ pub struct Track<'a, M, H> {
     pub data: &'a Data,
     /// The belief at [`Data::start`].
     pub prior: &'a Gaussian,
+    /// Parameters of its own, in place of the model's, which are as many; empty: the model's.
+    pub parameters: &'a [f64],
     /// Times at which the states are asked for besides, as in [`run_at`](crate::run_at).
     pub at: &'a [f64],
 }
 
 impl<'a, M, H> Track<'a, M, H> {
-    /// A trajectory without further times.
+    /// A trajectory with the model's own parameters and without further times.
     pub const fn new(model: &'a M, sensors: &'a H, data: &'a Data, prior: &'a Gaussian) -> Self {
-        Self { model, sensors, data, prior, at: &[] }
+        Self { model, sensors, data, prior, parameters: &[], at: &[] }
     }
 }
 
@@ -42,8 +51,13 @@ impl<M, H> Copy for Track<'_, M, H> {}
 
 /// How a batch is run.
 ///
-/// Each track comes out as alone, to the bit, whatever the number of threads and whatever other tracks there are; one that
-/// fails does not stop the others.
+/// Each track comes out as alone, but for rounding, and the same to the bit whatever the number of threads; one that fails
+/// does not stop the others, and has the failure that it would have had alone.
+///
+/// Tracks over one and the same model and sensors go in packs of as many as a vector register holds, each at its own times
+/// and with its own missing components; their functions want `#[inline(always)]`, without which a pack's instructions are
+/// calls. A track goes alone where a pack cannot serve it: solvers that choose their steps, fixed lag and fixed point, times
+/// asked for besides, smoothing in covariance form or by a solver; and wherever the machine has no vectors.
 ///
 /// ```
 /// use givens::Data;
@@ -62,14 +76,31 @@ impl<M, H> Copy for Track<'_, M, H> {}
 /// assert!(outcomes.iter().flatten().all(|outcome| outcome.estimates.len() == 1));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub struct Batch<'a> {
     /// What the estimates are given.
     pub goal: Goal,
     /// How many threads; all cores where it is not said.
     pub threads: Option<NonZeroUsize>,
+    /// The vectors of the packs. [`InstructionSet::Portable`], or one that the machine lacks: every track goes alone, and
+    /// comes out as from [`run`](crate::run()) to the bit.
+    pub vectors: InstructionSet,
     /// Cancels the batch when it is set, before the next row of each track.
     pub cancel: Option<&'a AtomicBool>,
+}
+
+impl Default for Batch<'_> {
+    /// Filtering, on all cores, with the vectors of the machine that pay: those of 512 bits gain too little over those of 256
+    /// to be compiled as well.
+    fn default() -> Self {
+        let vectors = [InstructionSet::Avx2, InstructionSet::Neon].into_iter().find(|set| set.available());
+        Self {
+            goal: Goal::Filter,
+            threads: None,
+            vectors: vectors.unwrap_or(InstructionSet::Portable),
+            cancel: None,
+        }
+    }
 }
 
 impl Batch<'_> {
@@ -81,17 +112,81 @@ impl Batch<'_> {
         M: Sync,
         H: Observation + Sync,
     {
-        let one = |track: &Track<M, H>| {
-            if stopped(self.cancel) {
-                return None;
-            }
-            let Track { model, sensors, data, prior, at } = *track;
-            let (rows, t0) = (data.rows(), data.start());
-            run_until(method, model, sensors, rows, t0, prior, self.goal, at, self.cancel)
-        };
-        // the longest first: none of them is left to one thread at the end
-        let mut order: Vec<usize> = (0..tracks.len()).collect();
-        order.sort_by_key(|&k| core::cmp::Reverse(tracks[k].data.len()));
-        each(&order, self.threads, |k| one(&tracks[k]))
+        let width = if packable(&method, self.goal) { lockstep::width(self.vectors) } else { 1 };
+        self.each_unit(tracks, width, |unit| self.unit(method, tracks, unit))
     }
+
+    /// The same without packs, whatever the vectors.
+    pub(crate) fn run_alone<X, M, H>(&self, method: X, tracks: &[Track<M, H>]) -> Vec<Option<Outcome>>
+    where
+        X: Over<M> + Sync,
+        M: Sync,
+        H: Observation + Sync,
+    {
+        let alone = |k: &usize| self.alone(method, &tracks[*k]);
+        self.each_unit(tracks, 1, |unit| unit.tracks.iter().map(alone).collect())
+    }
+
+    /// What comes of the units of so many tracks, put back into the order of the tracks.
+    fn each_unit<M: Sync, H: Sync>(
+        &self,
+        tracks: &[Track<M, H>],
+        width: usize,
+        one: impl Fn(&Unit) -> Vec<Option<Outcome>> + Sync,
+    ) -> Vec<Option<Outcome>> {
+        let units = units(tracks, width);
+        let done = each(&units, self.threads, one);
+        let mut outcomes: Vec<Option<Outcome>> = tracks.iter().map(|_| None).collect();
+        for (unit, done) in units.iter().zip(done) {
+            for (&k, outcome) in unit.tracks.iter().zip(done) {
+                outcomes[k] = outcome;
+            }
+        }
+        outcomes
+    }
+
+    /// The tracks of one unit of work.
+    fn unit<X: Over<M>, M, H: Observation>(
+        &self,
+        method: X,
+        tracks: &[Track<M, H>],
+        unit: &Unit,
+    ) -> Vec<Option<Outcome>> {
+        let alone = |k: &usize| self.alone(method, &tracks[*k]);
+        if unit.tracks.len() < 2 {
+            return unit.tracks.iter().map(alone).collect();
+        }
+        let pack: Vec<Track<M, H>> = unit.tracks.iter().map(|&k| tracks[k]).collect();
+        let job = Lockstep { method, tracks: &pack, goal: self.goal, stop: self.cancel };
+        match self.vectors.run_in_registers(job) {
+            // what a pack could not do is done again, alone
+            Ok(lanes) => {
+                unit.tracks.iter().zip(lanes).map(|(k, lane)| lane.or_else(|| alone(k))).collect()
+            }
+            Err(_) => unit.tracks.iter().map(alone).collect(),
+        }
+    }
+
+    fn alone<X: Over<M>, M, H: Observation>(&self, method: X, track: &Track<M, H>) -> Option<Outcome> {
+        if stopped(self.cancel) {
+            return None;
+        }
+        let Track { model, sensors, data, prior, parameters, at } = *track;
+        let (rows, t0) = (data.rows(), data.start());
+        run_until(method, model, sensors, rows, t0, prior, parameters, self.goal, at, self.cancel)
+    }
+}
+
+/// The outcomes of a method that is not for these models.
+pub(crate) fn refused<M, H: Observation>(
+    fault: Fault,
+    tracks: &[Track<M, H>],
+    goal: Goal,
+) -> Vec<Option<Outcome>> {
+    let one = |track: &Track<M, H>| {
+        let mut outcome = Outcome::new(track.prior.mean().len(), track.sensors.measures(), goal);
+        outcome.failure = Some((0, StepError { fault, time: track.data.start(), step: 0 }));
+        Some(outcome)
+    };
+    tracks.iter().map(one).collect()
 }

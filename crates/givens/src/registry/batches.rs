@@ -2,8 +2,8 @@
 
 use super::choice::Choice;
 use super::dispatch::Job;
-use crate::batch::{Batch, Track};
-use crate::filter::{Fault, Over, StepError};
+use crate::batch::{Batch, Track, refused};
+use crate::filter::{Form, Over};
 use crate::model::{Observation, Sde, Transition};
 use crate::run::Outcome;
 
@@ -14,7 +14,7 @@ impl Choice {
         tracks: &[Track<M, H>],
         batch: &Batch,
     ) -> Vec<Option<Outcome>> {
-        self.discrete(All { tracks, batch }).unwrap_or_else(|fault| refused(fault, tracks, batch))
+        self.discrete(All { tracks, batch }).unwrap_or_else(|fault| refused(fault, tracks, batch.goal))
     }
 
     /// Runs a continuous method over many trajectories; see [`Batch::run`]. A discrete one fails at the first row of each.
@@ -23,18 +23,8 @@ impl Choice {
         tracks: &[Track<M, H>],
         batch: &Batch,
     ) -> Vec<Option<Outcome>> {
-        self.continuous(All { tracks, batch }).unwrap_or_else(|fault| refused(fault, tracks, batch))
+        self.continuous(All { tracks, batch }).unwrap_or_else(|fault| refused(fault, tracks, batch.goal))
     }
-}
-
-/// The outcomes of a method that is not for these models.
-fn refused<M, H: Observation>(fault: Fault, tracks: &[Track<M, H>], batch: &Batch) -> Vec<Option<Outcome>> {
-    let one = |track: &Track<M, H>| {
-        let mut outcome = Outcome::new(track.prior.mean().len(), track.sensors.measures(), batch.goal);
-        outcome.failure = Some((0, StepError { fault, time: track.data.start(), step: 0 }));
-        Some(outcome)
-    };
-    tracks.iter().map(one).collect()
 }
 
 struct All<'s, 't, M, H> {
@@ -45,6 +35,11 @@ struct All<'s, 't, M, H> {
 impl<M: Sync, H: Observation + Sync> Job<M> for All<'_, '_, M, H> {
     type Done = Vec<Option<Outcome>>;
     fn with<X: Over<M> + Send + Sync + 'static>(self, method: X) -> Self::Done {
-        self.batch.run(method, self.tracks)
+        // each method in packs is some seconds of compiling: those that users of many tracks choose have it
+        if X::Form::SQUARE_ROOT {
+            self.batch.run(method, self.tracks)
+        } else {
+            self.batch.run_alone(method, self.tracks)
+        }
     }
 }

@@ -51,6 +51,10 @@ impl<M: Sde> TimeUpdate<M> for AnyTime {
         each!(self, time => time.probe(model, at, mean, scratch))
     }
 
+    fn lockstep(&self, smoothing: bool) -> bool {
+        each!(self, time => TimeUpdate::<M>::lockstep(time, smoothing))
+    }
+
     fn parameters<'m>(&self, model: &'m M) -> &'m [f64] {
         model.parameters()
     }

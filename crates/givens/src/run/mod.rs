@@ -114,11 +114,12 @@ pub fn run_at<'a, X: Over<M>, M, H: Observation>(
     goal: Goal,
     at: &[f64],
 ) -> Outcome {
-    run_until(method, model, sensors, rows, t0, prior, goal, at, None)
+    run_until(method, model, sensors, rows, t0, prior, &[], goal, at, None)
         .unwrap_or_else(|| Outcome::new(prior.mean().len(), sensors.measures(), goal))
 }
 
-/// [`run_at`] that is cancelled when `stop` is set: then there is no outcome.
+/// [`run_at`] with parameters in place of the model's, if there are any, that is cancelled when `stop` is set: then there is no
+/// outcome.
 pub(crate) fn run_until<'a, X: Over<M>, M, H: Observation>(
     method: X,
     model: &M,
@@ -126,6 +127,7 @@ pub(crate) fn run_until<'a, X: Over<M>, M, H: Observation>(
     rows: impl Iterator<Item = Row<'a>> + Clone,
     t0: f64,
     prior: &Gaussian,
+    parameters: &[f64],
     goal: Goal,
     at: &[f64],
     stop: Stop,
@@ -135,7 +137,7 @@ pub(crate) fn run_until<'a, X: Over<M>, M, H: Observation>(
     let out = &outcome.estimates;
     let between = Between::new(wanted, Estimates::new(out.states(), out.measures(), out.is_smoothed()));
     let count = if goal == Goal::Filter { 0 } else { rows.clone().count() };
-    match Recorder::start(method, model, sensors, t0, prior, goal, count, between, stop) {
+    match Recorder::start(method, model, sensors, t0, prior, parameters, goal, count, between, stop) {
         Ok(mut recorder) => {
             recorder.forward(rows, &mut outcome);
             outcome.at = recorder.finish(&mut outcome);

@@ -43,12 +43,16 @@ impl<'t, 'm, X: Over<M>, M, H: Observation> Recorder<'t, 'm, X, M, H> {
         sensors: &'m H,
         t0: f64,
         prior: &Gaussian,
+        parameters: &[f64],
         goal: Goal,
         rows: usize,
         between: Between<'t>,
         stop: Stop<'t>,
     ) -> Result<Self, StepError> {
-        let filter = start_own(method, model, sensors, Start::Prior(t0, prior), goal != Goal::Filter)?;
+        let mut filter = start_own(method, model, sensors, Start::Prior(t0, prior), goal != Goal::Filter)?;
+        if !parameters.is_empty() {
+            filter.set_parameters(parameters)?;
+        }
         let n = filter.mean().len();
         let capacity = match goal {
             Goal::Filter | Goal::Point(_) => 0,

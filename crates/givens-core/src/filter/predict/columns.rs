@@ -9,9 +9,3 @@ pub(super) fn gather<T: Real>(a: &[T], columns: usize, j: usize, to: &mut [T]) {
         *to = row[j];
     }
 }
-
-/// Σ a_k b_k.
-#[inline(always)]
-pub(super) fn dot<T: Real>(a: &[T], b: &[T]) -> T {
-    a.iter().zip(b).fold(T::zero(), |sum, (&x, &y)| x.mul_add(y, sum))
-}

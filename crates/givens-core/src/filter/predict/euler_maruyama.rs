@@ -50,6 +50,10 @@ impl<M: Sde> TimeUpdate<M> for EulerMaruyama {
         Continuous(model).probe(at, mean, scratch)
     }
 
+    fn lockstep(&self, _: bool) -> bool {
+        true
+    }
+
     fn parameters<'m>(&self, model: &'m M) -> &'m [f64] {
         model.parameters()
     }

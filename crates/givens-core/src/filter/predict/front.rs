@@ -1,13 +1,13 @@
 //! The differential equations of the level set: the mean, and a root M of the covariance that is free to turn (2021).
 
-use super::columns::{dot, gather};
+use super::columns::gather;
 use super::image::{Image, Imaged};
 use super::integrate::Carrier;
 use crate::filter::error::{Fault, Matrix};
 use crate::filter::form::Belief;
-use crate::filter::lanes::lanes;
+use crate::filter::lanes::{lanes, spoil};
 use crate::filter::memory::take;
-use crate::kernels::{lu, lu_order, lu_solve, square, tria};
+use crate::kernels::{dot, lu, lu_order, lu_solve, square, tria};
 use crate::model::At;
 use crate::ode::{System, Tolerance};
 use crate::scalar::Real;
@@ -63,16 +63,20 @@ impl<I: Image> System for Front<I> {
         slope.copy_from_slice(dev);
         if columns > 0 || self.carried {
             factors.copy_from_slice(m);
-            if let Some(pivot) = lu(factors, n, order).failed() {
+            let health = lu(factors, n, order);
+            if let Some(pivot) = health.failed() {
                 return Err(Fault::SingularFactor { pivot });
             }
+            spoil(health.sick, &mut velocity[0]);
         }
         for j in 0..columns {
             gather(noise, columns, j, column);
             lu_solve(factors, n, order, column);
             for (i, row) in slope.chunks_exact_mut(n).enumerate() {
                 let g = T::of(0.5) * noise[i * columns + j];
-                row.iter_mut().zip(&*column).for_each(|(to, &h)| *to = g.mul_add(h, *to));
+                for (to, &h) in row.iter_mut().zip(&*column) {
+                    *to = g.mul_add(h, *to);
+                }
             }
         }
         if self.carried {
@@ -124,28 +128,36 @@ impl<I: Image> Carrier for Front<I> {
         Self { carried: false, ..*self }
     }
 
+    #[inline(always)]
     fn begin<T: Real>(&self, belief: &Belief<T>, y: &mut [T]) {
         let n = self.image.states();
         y[..n].copy_from_slice(belief.mean);
-        y[n..].chunks_exact_mut(n * n).for_each(|to| to.copy_from_slice(belief.factor));
+        for to in y[n..].chunks_exact_mut(n * n) {
+            to.copy_from_slice(belief.factor);
+        }
     }
 
+    #[inline(always)]
     fn factor<T: Real>(&self, y: &[T], factor: &mut [T]) -> Result<(), Fault> {
         let n = self.image.states();
         factor.copy_from_slice(&y[n..n + n * n]);
-        lanes(tria(factor, n, n, n), Matrix::Predicted).map(|_| ())
+        spoil(lanes(tria(factor, n, n, n), Matrix::Predicted)?, &mut factor[0]);
+        Ok(())
     }
 
+    #[inline(always)]
     fn root<T: Real>(&self, y: &[T], _: &[T], root: &mut [T]) {
         let n = self.image.states();
         root.copy_from_slice(&y[n..n + n * n]);
     }
 
+    #[inline(always)]
     fn covariance<T: Real>(&self, _: &[T], factor: &[T], cov: &mut [T]) {
         let n = self.image.states();
         square(cov, n, factor, n, n);
     }
 
+    #[inline(always)]
     fn carried<'y, T>(&self, y: &'y [T]) -> &'y [T] {
         let n = self.image.states();
         &y[n + n * n..]

@@ -4,7 +4,7 @@ use crate::filter::backward::Backward;
 use crate::filter::error::{Fault, Matrix};
 use crate::filter::lanes::split;
 use crate::filter::memory::{put_columns, take};
-use crate::kernels::{divide_lower, divide_lower_transposed, downdate, tria};
+use crate::kernels::{dot, divide_lower, divide_lower_transposed, downdate, tria};
 use crate::scalar::Real;
 
 /// Scalars of scratch of [`rotation`], for `stride` columns of D, E and noise.
@@ -67,7 +67,7 @@ pub(super) fn gain_of_covariance<T: Real>(
     let n = factor.len().isqrt();
     for (to, s) in back.gain.chunks_exact_mut(n).zip(factor.chunks_exact(n)) {
         for (g, d) in to.iter_mut().zip(dev.chunks_exact(stride)) {
-            *g = s.iter().zip(d).fold(T::zero(), |sum, (&x, &y)| x.mul_add(y, sum));
+            *g = dot(s, d);
         }
     }
     divide_lower_transposed(back.gain, n, n, next, n);

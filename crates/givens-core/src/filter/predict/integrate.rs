@@ -1,6 +1,6 @@
 //! A belief carried over a gap by a solver, and what a smoother needs to come back.
 
-use super::columns::{dot, gather};
+use super::columns::gather;
 use super::gain::gain_of_covariance;
 use super::image::Image;
 use super::{Given, Stopped};
@@ -10,7 +10,7 @@ use crate::filter::form::{Belief, Form};
 use crate::filter::lanes::lanes;
 use crate::filter::memory::{put_columns, take};
 use crate::filter::sizes::{ENDLESS, Sizes, fits};
-use crate::kernels::{Health, copy_lower, downdate, solve_lower, tria};
+use crate::kernels::{dot, Health, copy_lower, downdate, solve_lower, tria};
 use crate::model::At;
 use crate::ode::{Integrator, Segment, Solver, Stop, System, Why, Work};
 use crate::rule::RuleError;
@@ -29,6 +29,7 @@ pub(super) trait Carrier: System<Fault = Fault> {
     /// The lower triangular root of the covariance.
     fn factor<T: Real>(&self, y: &[T], factor: &mut [T]) -> Result<(), Fault>;
     /// The root that the solver has carried, of which `factor` is the lower triangular one.
+    #[inline(always)]
     fn root<T: Real>(&self, _: &[T], factor: &[T], root: &mut [T]) {
         root.copy_from_slice(factor);
     }
@@ -166,6 +167,7 @@ fn way_back<T: Real, C: Carrier, F: Form, M, R>(
 /// Ω Ωᵀ + Γ Γᵀ = I whatever the model, and Ω Ωᵀ ≤ I where Γ is not computed. Equal steps that are too long for X break it.
 const ROUGH: f64 = 0.25;
 
+#[inline(always)]
 fn resolved<T: Real>(back: &Backward<T>, n: usize) -> Result<(), Fault> {
     for (i, omega) in back.gain.chunks_exact(n).enumerate() {
         let rest = back.conditional.chunks_exact(n).nth(i).map(|gamma| dot(gamma, gamma));

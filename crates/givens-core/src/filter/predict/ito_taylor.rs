@@ -87,6 +87,11 @@ impl<M: Sde> TimeUpdate<M> for ItoTaylor {
         Continuous(model).probe(at, mean, scratch)
     }
 
+    /// Steps of a longest length are planned lane by lane, but those of one noise are within the step.
+    fn lockstep(&self, _: bool) -> bool {
+        self.variant != Variant::NoiseOnce || matches!(self.steps, Steps::Count(_))
+    }
+
     fn parameters<'m>(&self, model: &'m M) -> &'m [f64] {
         model.parameters()
     }

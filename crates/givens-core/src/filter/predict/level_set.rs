@@ -99,6 +99,10 @@ impl<M: Sde> TimeUpdate<M> for LevelSet {
         Continuous(model).probe(at, mean, scratch)
     }
 
+    fn lockstep(&self, smoothing: bool) -> bool {
+        self.integrator.lockstep() && !smoothing && !TimeUpdate::<M>::moves_root(self)
+    }
+
     fn parameters<'m>(&self, model: &'m M) -> &'m [f64] {
         model.parameters()
     }

@@ -107,6 +107,10 @@ pub trait TimeUpdate<M>: Copy {
     /// A gap that the model has no steps for.
     fn plan(&self, model: &M, from: f64, to: f64) -> Result<Plan, Fault>;
 
+    /// Whether the lanes of a pack may go over a gap together: no step is chosen by the numbers of one of them. With
+    /// `smoothing`, also back again.
+    fn lockstep(&self, smoothing: bool) -> bool;
+
     /// Whether a step leaves a root of its own, [`Belief::moved`], for the measurement update.
     fn moves_root(&self) -> bool {
         false

@@ -75,6 +75,10 @@ impl<M: Sde> TimeUpdate<M> for MomentOde {
         Continuous(model).probe(at, mean, scratch)
     }
 
+    fn lockstep(&self, smoothing: bool) -> bool {
+        self.integrator.lockstep() && !smoothing
+    }
+
     fn parameters<'m>(&self, model: &'m M) -> &'m [f64] {
         model.parameters()
     }

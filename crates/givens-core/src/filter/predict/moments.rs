@@ -1,14 +1,14 @@
 //! The differential equations of a belief's mean and covariance, or of its lower triangular root (2012 §2.2).
 
-use super::columns::{dot, gather};
+use super::columns::gather;
 use super::image::{Image, Imaged};
 use super::integrate::Carrier;
 use super::packed::{pack, packed_len, unpack, unpack_symmetric};
 use crate::filter::error::{Fault, Matrix};
 use crate::filter::form::Belief;
-use crate::filter::lanes::lanes;
-use crate::filter::memory::take;
-use crate::kernels::{cholesky, solve_lower, square};
+use crate::filter::lanes::{lanes, spoil};
+use crate::filter::memory::{put_identity, take};
+use crate::kernels::{cholesky, dot, solve_lower, square};
 use crate::model::At;
 use crate::ode::{System, Tolerance};
 use crate::scalar::{Mask, Real};
@@ -24,6 +24,7 @@ pub(super) struct Moments<I> {
 
 impl<I: Image> Moments<I> {
     /// Where P or S and X stand in y.
+    #[inline(always)]
     pub fn parts<'y, T>(&self, y: &'y [T]) -> (&'y [T], &'y [T], &'y [T]) {
         let n = self.image.states();
         let (mean, rest) = y.split_at(n);
@@ -35,14 +36,17 @@ impl<I: Image> Moments<I> {
 impl<I: Image> Carrier for Moments<I> {
     type Image = I;
 
+    #[inline(always)]
     fn image(&self) -> I {
         self.image
     }
 
+    #[inline(always)]
     fn alone(&self) -> Self {
         Self { carried: false, ..*self }
     }
 
+    #[inline(always)]
     fn begin<T: Real>(&self, belief: &Belief<T>, y: &mut [T]) {
         let n = self.image.states();
         let (mean, rest) = y.split_at_mut(n);
@@ -54,15 +58,19 @@ impl<I: Image> Carrier for Moments<I> {
         }
     }
 
+    #[inline(always)]
     fn factor<T: Real>(&self, y: &[T], factor: &mut [T]) -> Result<(), Fault> {
         let n = self.image.states();
         unpack(n, self.parts(y).1, factor);
         if self.square_root {
-            return positive(n, factor);
+            spoil(positive(n, factor)?, &mut factor[0]);
+        } else {
+            spoil(lanes(cholesky(factor, n), Matrix::Predicted)?, &mut factor[0]);
         }
-        lanes(cholesky(factor, n), Matrix::Predicted).map(|_| ())
+        Ok(())
     }
 
+    #[inline(always)]
     fn covariance<T: Real>(&self, y: &[T], factor: &[T], cov: &mut [T]) {
         let n = self.image.states();
         if self.square_root {
@@ -72,6 +80,7 @@ impl<I: Image> Carrier for Moments<I> {
         }
     }
 
+    #[inline(always)]
     fn carried<'y, T>(&self, y: &'y [T]) -> &'y [T] {
         self.parts(y).2
     }
@@ -123,20 +132,22 @@ impl<I: Image> System for Moments<I> {
         let column = take(&mut scratch, n);
         // D = J if the rule is of first order and P is carried: nothing is then factorised
         let jacobian = self.image.first_order() && !self.square_root;
+        let mut sick = T::Mask::splat(false);
         if self.square_root {
             unpack(n, lower, s);
-            positive(n, s)?;
+            sick = positive(n, s)?;
         } else {
             unpack_symmetric(n, lower, p);
             if jacobian {
                 s.fill(T::zero());
-                s.iter_mut().step_by(n + 1).for_each(|x| *x = T::one());
+                put_identity(s, n, 0, n);
             } else {
                 s.copy_from_slice(p);
-                lanes(cholesky(s, n), Matrix::Predicted)?;
+                sick = lanes(cholesky(s, n), Matrix::Predicted)?;
             }
         }
         self.image.image(at, table, mean, s, &mut Imaged { velocity, dev, noise }, scratch)?;
+        spoil(sick, &mut velocity[0]);
         if self.square_root {
             // S' = S Φ[Y + Yᵀ + H Hᵀ], Y = S⁻¹ D, H = S⁻¹ N
             bend.fill(T::zero());
@@ -158,7 +169,10 @@ impl<I: Image> System for Moments<I> {
             let mut out = slope.iter_mut();
             for i in 0..n {
                 for (j, to) in (0..=i).zip(&mut out) {
-                    *to = (j..=i).fold(T::zero(), |sum, k| s[i * n + k].mul_add(bend[k * n + j], sum));
+                    *to = T::zero();
+                    for k in j..=i {
+                        *to = s[i * n + k].mul_add(bend[k * n + j], *to);
+                    }
                 }
             }
         } else {
@@ -166,10 +180,11 @@ impl<I: Image> System for Moments<I> {
             let with = if jacobian { &*p } else { &*s };
             for i in 0..n {
                 for j in 0..=i {
-                    let sum = (0..n).fold(T::zero(), |sum, k| {
+                    let mut sum = T::zero();
+                    for k in 0..n {
                         let one = dev[i * n + k].mul_add(with[j * n + k], sum);
-                        with[i * n + k].mul_add(dev[j * n + k], one)
-                    });
+                        sum = with[i * n + k].mul_add(dev[j * n + k], one);
+                    }
                     bend[i * n + j] = sum;
                 }
             }
@@ -230,19 +245,22 @@ impl<I: Image> System for Moments<I> {
     }
 }
 
-/// A factor that can be divided by.
+/// The lanes of a factor that cannot be divided by, if not all.
 #[inline(always)]
-pub(super) fn positive<T: Real>(n: usize, s: &[T]) -> Result<(), Fault> {
+pub(super) fn positive<T: Real>(n: usize, s: &[T]) -> Result<T::Mask, Fault> {
+    let mut sick = T::Mask::splat(false);
     for pivot in 0..n {
         let x = s[pivot * n + pivot];
         if x.same(T::zero()).all() {
             return Err(Fault::SingularFactor { pivot });
         }
-        if (!T::zero().lt(x)).all() {
+        let wrong = !T::zero().lt(x);
+        if wrong.all() {
             return Err(Fault::NotPositive { matrix: Matrix::Predicted, pivot });
         }
+        sick = sick | wrong;
     }
-    Ok(())
+    Ok(sick)
 }
 
 /// A + v vᵀ (or A − v vᵀ) in the lower triangle.

@@ -6,6 +6,7 @@ use crate::filter::backward::Backward;
 use crate::filter::error::{Fault, Quantity};
 use crate::filter::form::{Belief, Form};
 use crate::filter::memory::{larger, take};
+use crate::kernels::wild_row;
 use crate::model::{At, Sde, Varies};
 use crate::rule::{Shape, Spread, spread_scratch};
 use crate::scalar::{Dual2, Mask, Real, as_duals};
@@ -57,17 +58,15 @@ pub(super) fn finish<T: Real, F: Form>(
     let n = belief.mean.len();
     let width = spread.stride;
     // a noise whose entries do not move with the state spreads nothing
-    let moves = |j: usize| {
-        let rows = || (0..n).map(|i| n + i * q + j);
-        let still = |of: &[T]| of.iter().all(|x| x.same(T::zero()).all());
-        !rows().all(|row| {
-            still(&spread.dev[row * width..][..width]) && still(&spread.minus[row * lost..][..lost])
-        })
-    };
-    let moving = || (0..if entries.is_some() { q } else { 0 }).filter(|&j| moves(j));
-    let spreads = moving().count();
-    let dropped = |j: usize| (0..n).all(|i| noise[i * known + j].same(T::zero()).all());
-    let kept = (0..known).filter(|&j| !dropped(j)).count();
+    let mut spreads = 0;
+    let q_spread = if entries.is_some() { q } else { 0 };
+    for j in 0..q_spread {
+        spreads += usize::from(moves(&spread, lost, n, q, j));
+    }
+    let mut kept = 0;
+    for j in 0..known {
+        kept += usize::from(!empty(noise, known, j));
+    }
     let stride = width * (1 + spreads) + kept;
     let all_lost = lost * (1 + spreads);
     let dev = take(&mut scratch, n * stride);
@@ -76,23 +75,61 @@ pub(super) fn finish<T: Real, F: Form>(
     for i in 0..n {
         let row = &mut dev[i * stride..(i + 1) * stride];
         row[..width].copy_from_slice(&spread.dev[i * width..(i + 1) * width]);
-        let columns = (0..known).filter(|&j| !dropped(j));
-        row[width..].iter_mut().zip(columns).for_each(|(to, j)| *to = noise[i * known + j]);
-        let away = &mut minus[i * all_lost..(i + 1) * all_lost];
-        away[..lost].copy_from_slice(&spread.minus[i * lost..(i + 1) * lost]);
-        for (j, noise) in moving().enumerate() {
-            let from = n + i * q + noise;
-            let to = &mut row[width + kept + j * width..][..width];
+        minus[i * all_lost..][..lost].copy_from_slice(&spread.minus[i * lost..(i + 1) * lost]);
+    }
+    let mut column = width;
+    for j in 0..known {
+        if !empty(noise, known, j) {
+            for i in 0..n {
+                dev[i * stride + column] = noise[i * known + j];
+            }
+            column += 1;
+        }
+    }
+    let mut block = 0;
+    for j in 0..q_spread {
+        if !moves(&spread, lost, n, q, j) {
+            continue;
+        }
+        for i in 0..n {
+            let from = n + i * q + j;
+            let to = &mut dev[i * stride + width + kept + block * width..][..width];
             for (to, &x) in to.iter_mut().zip(&spread.dev[from * width..]) {
                 *to = scale * x;
             }
-            for (to, &x) in away[(j + 1) * lost..].iter_mut().zip(&spread.minus[from * lost..][..lost]) {
+            let away = &mut minus[i * all_lost + (block + 1) * lost..][..lost];
+            for (to, &x) in away.iter_mut().zip(&spread.minus[from * lost..]) {
                 *to = scale * x;
             }
         }
+        block += 1;
     }
     let mean = &spread.mean[..n];
     settle::<T, F>(Moved { mean, dev, stride, minus, lost: all_lost }, belief, back, scratch)
+}
+
+/// Whether the entries of noise `j` move with the state, in any lane: n rows of n × q such entries below those of the state.
+#[inline(always)]
+fn moves<T: Real>(spread: &Spread<T>, lost: usize, n: usize, q: usize, j: usize) -> bool {
+    let width = spread.stride;
+    let mut still = T::Mask::splat(true);
+    for i in 0..n {
+        let row = n + i * q + j;
+        for x in spread.dev[row * width..][..width].iter().chain(&spread.minus[row * lost..][..lost]) {
+            still = still & x.same(T::zero());
+        }
+    }
+    !still.all()
+}
+
+/// Whether column `j` of a matrix of rows of length `stride` is zero in every lane.
+#[inline(always)]
+fn empty<T: Real>(a: &[T], stride: usize, j: usize) -> bool {
+    let mut zero = T::Mask::splat(true);
+    for row in a.chunks_exact(stride) {
+        zero = zero & row[j].same(T::zero());
+    }
+    zero.all()
 }
 
 /// The first component of a stacked spread that is not finite, as a fault.
@@ -118,8 +155,7 @@ pub(super) fn check_spread<T: Real>(
 #[inline(always)]
 pub(super) fn diffusion<T: Real, M: Sde>(model: &M, at: &At<T>, x: &[T], g: &mut [T]) -> Result<(), Fault> {
     model.diffusion(at, x, g);
-    let wrong = |row: &[T]| row.iter().any(|x| (!x.finite()).all());
-    match g.chunks_exact(model.noises().max(1)).position(wrong) {
+    match wild_row(g, model.noises()) {
         Some(component) => Err(Fault::NotFinite { quantity: Quantity::Diffusion, component }),
         None => Ok(()),
     }
@@ -148,15 +184,15 @@ pub(super) fn diffusion_rate<T: Real, M: Sde>(
     let (image, rest) = rest.split_at_mut(g.len());
     let (u, rest) = rest.split_at_mut(at.u.len());
     let p = &mut rest[..at.p.len()];
-    let constants = point.iter_mut().zip(x).chain(u.iter_mut().zip(at.u)).chain(p.iter_mut().zip(at.p));
-    constants.for_each(|(dual, &x)| *dual = Dual2::constant(x));
+    for (dual, &x) in point.iter_mut().zip(x).chain(u.iter_mut().zip(at.u)).chain(p.iter_mut().zip(at.p)) {
+        *dual = Dual2::constant(x);
+    }
     let when = At { t: Dual2::variable(at.t), dt: Dual2::constant(at.dt), u, p };
     model.diffusion(&when, point, image);
     for ((g, rate), dual) in g.iter_mut().zip(rate).zip(&*image) {
         (*g, *rate) = (dual.v, dual.d);
     }
-    let wrong = |row: &[T]| row.iter().any(|x| (!x.finite()).all());
-    match g.chunks_exact(model.noises().max(1)).position(wrong) {
+    match wild_row(g, model.noises()) {
         Some(component) => Err(Fault::NotFinite { quantity: Quantity::Diffusion, component }),
         None => Ok(()),
     }

@@ -9,6 +9,7 @@ use crate::filter::lanes::lanes;
 use crate::filter::layout::Layout;
 use crate::filter::memory::{larger, put_columns, take};
 use crate::filter::sizes::{Sizes, countable};
+use crate::kernels::wild_row;
 use crate::model::{Moving, Transition};
 use crate::ode::Work;
 use crate::rule::{Rule, Shape, Spread, spread_scratch};
@@ -66,6 +67,10 @@ impl<M: Transition> TimeUpdate<M> for OneTransition {
         }
     }
 
+    fn lockstep(&self, _: bool) -> bool {
+        true
+    }
+
     fn parameters<'m>(&self, model: &'m M) -> &'m [f64] {
         model.parameters()
     }
@@ -118,18 +123,11 @@ impl<M: Transition> TimeUpdate<M> for OneTransition {
         }
         let Spread { mean, dev, minus, .. } = spread;
         let sick = lanes(model.noise_root(at, root), Matrix::ProcessNoise)?;
-        if let Some(component) = not_finite(root, q) {
+        if let Some(component) = wild_row(root, q) {
             return Err(Fault::NotFinite { quantity: Quantity::ProcessNoise, component }.into());
         }
         put_columns(dev, stride, n + shape.plus, root, q);
         let moved = Moved { mean, dev, stride, minus, lost: shape.minus };
         Ok(sick | settle::<T, F>(moved, belief, back, scratch)?)
     }
-}
-
-/// The first row of a root of `columns` columns that is not finite in any lane.
-#[inline(always)]
-pub(super) fn not_finite<T: Real>(root: &[T], columns: usize) -> Option<usize> {
-    let wrong = |row: &[T]| row.iter().any(|x| (!x.finite()).all());
-    root.chunks_exact(columns.max(1)).position(wrong)
 }

@@ -5,8 +5,9 @@ use super::noise::diffusion;
 use crate::filter::error::{Fault, Quantity};
 use crate::filter::memory::take;
 use crate::filter::sizes::Sizes;
+use crate::kernels::wild_row;
 use crate::model::{At, Sde, drift_scratch};
-use crate::scalar::{Mask, Real};
+use crate::scalar::Real;
 
 /// Which points of the drift are taken, and what is made of them (docs/algorithms.md C11).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -111,23 +112,26 @@ impl<M: Sde> Image for ByVelocity<'_, M> {
             }
             match self.velocity {
                 Velocity::Standard => row[n] = mean[i],
-                Velocity::Partial => row[n] = mean[i] - share * m.iter().fold(T::zero(), |sum, &x| sum + x),
+                Velocity::Partial => row[n] = mean[i] - share * total(m),
                 Velocity::PartialPrinted => row[n] = mean[i] - m[0],
-                _ => (0..n).for_each(|j| row[n + j] = (-radius).mul_add(m[j], mean[i])),
+                _ => {
+                    for j in 0..n {
+                        row[n + j] = (-radius).mul_add(m[j], mean[i]);
+                    }
+                }
             }
         }
         self.model.drift_points(at, points, x, v, scratch);
         let half = T::of(0.5);
         for i in 0..n {
             let (plus, rest) = v[i * points..(i + 1) * points].split_at(n);
-            if !plus.iter().chain(rest).all(|x| x.finite().any()) {
+            if wild_row(&v[i * points..(i + 1) * points], 1).is_some() {
                 return Err(Fault::NotFinite { quantity: Quantity::Drift, component: i });
             }
-            let sum = |points: &[T]| points.iter().fold(T::zero(), |sum, &x| sum + x);
             let velocity = match self.velocity {
                 Velocity::Standard => rest[0],
-                Velocity::Partial | Velocity::PartialPrinted => half * share.mul_add(sum(plus), rest[0]),
-                _ => half * share * (sum(plus) + sum(rest)),
+                Velocity::Partial | Velocity::PartialPrinted => half * share.mul_add(total(plus), rest[0]),
+                _ => half * share * (total(plus) + total(rest)),
             };
             let dev = &mut out.dev[i * n..(i + 1) * n];
             for j in 0..n {
@@ -153,4 +157,14 @@ impl<M: Sde> Image for ByVelocity<'_, M> {
     ) -> Result<(), Fault> {
         diffusion(self.model, at, mean, noise)
     }
+}
+
+/// Σ xᵢ.
+#[inline(always)]
+fn total<T: Real>(row: &[T]) -> T {
+    let mut sum = T::zero();
+    for &x in row {
+        sum += x;
+    }
+    sum
 }

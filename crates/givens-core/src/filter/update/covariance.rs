@@ -81,8 +81,10 @@ pub(super) fn update<'a, T: Real>(
     }
     for (i, row) in minus.chunks_exact_mut(lost.max(1)).enumerate() {
         for (k, x) in row.iter_mut().enumerate() {
-            let w = gain[i * d..(i + 1) * d].iter();
-            *x = w.zip(white_minus.chunks_exact(lost)).fold(T::zero(), |sum, (&w, z)| w.mul_add(z[k], sum));
+            *x = T::zero();
+            for (&w, z) in gain[i * d..(i + 1) * d].iter().zip(white_minus.chunks_exact(lost)) {
+                *x = w.mul_add(z[k], *x);
+            }
         }
     }
     add_outer(cov, n, n, minus, lost, minus, lost, lost, -1.0);

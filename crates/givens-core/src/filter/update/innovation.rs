@@ -1,7 +1,7 @@
 //! The innovation: what the measurement said beyond the prediction, and how likely it was.
 
 use crate::filter::error::{Fault, Quantity};
-use crate::kernels::solve_lower;
+use crate::kernels::{dot, solve_lower};
 use crate::scalar::{Mask, Real};
 
 /// ν = z − ẑ of the components that were there, its covariance, and what they say of the filter.
@@ -23,9 +23,12 @@ pub struct Innovation<'a, T> {
 
 impl<T: Real> Innovation<'_, T> {
     /// Element (i, j) of P_zz.
+    #[inline(always)]
     pub fn cov(&self, i: usize, j: usize) -> T {
         let d = self.nu.len();
-        (0..=i.min(j)).fold(T::zero(), |sum, k| self.factor[i * d + k].mul_add(self.factor[j * d + k], sum))
+        let row = |i: usize| &self.factor[i * d..(i + 1) * d];
+        let least = i.min(j);
+        dot(&row(i)[..=least], &row(j)[..=least])
     }
 }
 
@@ -49,26 +52,25 @@ impl<T: Real> InnovationMut<'_, T> {
         white.copy_from_slice(&self.nu[..d]);
         solve_lower(root, stride, white);
         let mut nis = T::zero();
-        let endless = |&e: &T| {
+        for (component, &e) in white.iter().enumerate() {
             nis = e.mul_add(e, nis);
-            (!nis.finite()).all()
-        };
-        match white.iter().position(endless) {
-            Some(measure) => Err(Fault::NotFinite { quantity: Quantity::Innovation, component: measure }),
-            None => Ok(()),
+            if (!nis.finite()).all() {
+                return Err(Fault::NotFinite { quantity: Quantity::Innovation, component });
+            }
         }
+        Ok(())
     }
 
-    /// NIS and log-likelihood from the root and the whitened innovation of `d` components.
+    /// NIS and log-likelihood from the root and the whitened innovation of `d` components, `dof` of them in each lane.
     #[inline(always)]
-    pub fn score(&mut self, d: usize) {
+    pub fn score(&mut self, d: usize, dof: T) {
         let (mut nis, mut half_ln_det) = (T::zero(), T::zero());
         for i in 0..d {
             nis = self.white[i].mul_add(self.white[i], nis);
             half_ln_det += self.factor[i * d + i].ln();
         }
-        let constant = 0.5 * d as f64 * Real::ln(core::f64::consts::TAU);
+        let constant = T::of(0.5 * Real::ln(core::f64::consts::TAU)) * dof;
         *self.nis = nis;
-        *self.log_likelihood = -T::of(0.5) * nis - half_ln_det - T::of(constant);
+        *self.log_likelihood = -T::of(0.5) * nis - half_ln_det - constant;
     }
 }

@@ -1,7 +1,7 @@
 //! What the measurement updates since the last prediction leave for the way back.
 
 use super::posterior::Rows;
-use crate::kernels::product_lower;
+use crate::kernels::{plus_dot, product_lower};
 use crate::scalar::Real;
 
 /// x = m⁻ + S⁻ a before the updates and x = m + S u after them: a = shift + turn u (docs/algorithms.md S4). Empty in
@@ -16,6 +16,7 @@ pub struct Learnt<'a, T> {
 
 impl<T: Real> Learnt<'_, T> {
     /// Nothing learnt: a = u.
+    #[inline(always)]
     pub fn reset(&mut self, n: usize) {
         self.shift.fill(T::zero());
         for (i, x) in self.turn.iter_mut().enumerate() {
@@ -28,7 +29,7 @@ impl<T: Real> Learnt<'_, T> {
     pub(super) fn add(&mut self, moved: &[T], b: Rows<T>) {
         let n = self.shift.len();
         for (shift, row) in self.shift.iter_mut().zip(self.turn.chunks_exact(n)) {
-            *shift = row.iter().zip(moved).fold(*shift, |sum, (&t, &x)| t.mul_add(x, sum));
+            *shift = plus_dot(*shift, row, moved);
         }
         product_lower(self.turn, n, n, b.of, b.stride);
     }

@@ -17,6 +17,7 @@ pub(crate) use posterior::{Posterior, Rows};
 use super::error::{Fault, Quantity};
 use super::form::{Belief, Form};
 use crate::filter::memory::larger;
+use crate::kernels::wild_row;
 use crate::model::{At, Observation};
 use crate::rule::{Rule, Shape, spread_scratch};
 use crate::scalar::{Mask, Real};
@@ -32,11 +33,33 @@ pub enum Block {
     Separate,
 }
 
-/// A measurement, and which of its components are there (`None`: all).
+/// Which components of a measurement are there.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Measurement<'a, T> {
+pub(crate) enum Present<'a, T: Real> {
+    All,
+    /// In every lane the same.
+    Some(&'a [bool]),
+    /// In each lane its own.
+    Lanes(&'a [T::Mask]),
+}
+
+impl<T: Real> Present<'_, T> {
+    /// The lanes in which component `i` is there.
+    #[inline(always)]
+    pub fn lanes(&self, i: usize) -> T::Mask {
+        match self {
+            Self::All => T::Mask::splat(true),
+            Self::Some(present) => T::Mask::splat(present[i]),
+            Self::Lanes(masks) => masks[i],
+        }
+    }
+}
+
+/// A measurement, and which of its components are there.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Measurement<'a, T: Real> {
     pub z: &'a [T],
-    pub present: Option<&'a [bool]>,
+    pub present: Present<'a, T>,
 }
 
 /// Scalars of scratch of [`update`]: d measures, r noise columns, `map` of the model's own.
@@ -58,12 +81,11 @@ pub(crate) const fn update_scratch(
 
 /// What an update found. Nothing is changed yet but the innovation.
 pub(crate) struct Updated<'a, T: Real> {
-    /// Components that were there.
+    /// Components that were there, in one lane at least.
     pub present: usize,
     /// The lanes in which one of them had no more noise than rounding.
     pub exact: T::Mask,
     /// The lanes that a kernel could not serve.
-    #[allow(dead_code, reason = "for packs")]
     pub sick: T::Mask,
     /// What is believed now; none without any component.
     pub posterior: Option<Posterior<'a, T>>,
@@ -84,7 +106,7 @@ pub(crate) fn update<'a, T: Real, H: Observation, R: Rule, F: Form>(
     mut scratch: &'a mut [T],
 ) -> Result<Updated<'a, T>, Fault> {
     let (sensed, sick) = sense(rule, table, h, at, &measurement, belief, innovation, &mut scratch)?;
-    let Sensed { d: present, exact, .. } = sensed;
+    let Sensed { d: present, exact, dof, .. } = sensed;
     if present == 0 {
         (*innovation.nis, *innovation.log_likelihood) = (T::zero(), T::zero());
         return Ok(Updated { present, exact: T::Mask::splat(false), sick, posterior: None });
@@ -95,9 +117,9 @@ pub(crate) fn update<'a, T: Real, H: Observation, R: Rule, F: Form>(
         covariance::update(&sensed, belief, innovation, scratch)
     };
     let (posterior, more) = done.map_err(|fault| measurement.in_whole(fault))?;
-    if let Some(component) = posterior.mean.iter().position(|m| (!m.finite()).all()) {
+    if let Some(component) = wild_row(posterior.mean, 1) {
         return Err(Fault::NotFinite { quantity: Quantity::Estimate, component });
     }
-    innovation.score(present);
+    innovation.score(present, dof);
     Ok(Updated { present, exact, sick: sick | more, posterior: Some(posterior) })
 }

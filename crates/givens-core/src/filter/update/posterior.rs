@@ -13,6 +13,7 @@ pub(crate) struct Rows<'a, T> {
 
 impl<'a, T> Rows<'a, T> {
     /// The first `len` scalars of row `i`.
+    #[inline(always)]
     pub fn row(&self, i: usize, len: usize) -> &'a [T] {
         &self.of[i * self.stride..][..len]
     }

@@ -5,15 +5,17 @@ use crate::filter::error::{Fault, Matrix, Quantity};
 use crate::filter::form::Belief;
 use crate::filter::lanes::lanes;
 use crate::filter::memory::{put_columns, take};
-use crate::kernels::tria;
+use crate::kernels::{plus_magnitudes, tria};
 use crate::model::{At, Observation, Sensed as SensedMap};
 use crate::rule::{Rule, Shape, Spread};
 use crate::scalar::{Mask, Real};
 
 /// Z = [D E S_R] and the negative columns, rows of the present components only.
 pub(super) struct Sensed<'a, T: Real> {
-    /// Number of components present.
+    /// Number of components present, in one lane at least.
     pub d: usize,
+    /// Their number in each lane.
+    pub dof: T,
     /// d rows of length `stride`: D (n columns), E, S_R.
     pub dev: &'a [T],
     pub stride: usize,
@@ -25,13 +27,11 @@ pub(super) struct Sensed<'a, T: Real> {
     pub exact: T::Mask,
 }
 
-impl<T> Measurement<'_, T> {
+impl<T: Real> Measurement<'_, T> {
     /// A fault of the present components, numbered as in the whole measurement.
     pub fn in_whole(&self, fault: Fault) -> Fault {
-        let whole = |i: usize| match self.present {
-            Some(present) => (0..present.len()).filter(|&k| present[k]).nth(i).unwrap_or(i),
-            None => i,
-        };
+        let there = |&k: &usize| self.present.lanes(k).any();
+        let whole = |i: usize| (0..self.z.len()).filter(there).nth(i).unwrap_or(i);
         match fault {
             Fault::SingularInnovation { measure } => Fault::SingularInnovation { measure: whole(measure) },
             Fault::NotFinite { quantity: Quantity::Innovation, component } => {
@@ -51,6 +51,9 @@ pub(super) const fn sense_scratch(n: usize, d: usize, r: usize, shape: Shape) ->
 }
 
 /// Predicts the measurement and compares; the rest of `scratch` is left for the update.
+///
+/// A component that is absent in some lanes only is, in these, a measure of pure unit noise that says what was expected: it
+/// teaches nothing, and its pivot is one. That noise needs a column of its own, for which the caller counts in `r`.
 #[inline(always)]
 pub(super) fn sense<'a, T: Real, H: Observation, R: Rule>(
     rule: &R,
@@ -65,7 +68,12 @@ pub(super) fn sense<'a, T: Real, H: Observation, R: Rule>(
     let (n, all) = (belief.mean.len(), h.measures());
     let shape = rule.shape(n);
     let r = h.noise().columns(all);
-    let stride = n + shape.plus + r;
+    let partly = |i: &usize| {
+        let there = measurement.present.lanes(*i);
+        there.any() && !there.all()
+    };
+    let filled = n + shape.plus + r;
+    let stride = filled + (0..all).filter(partly).count();
     let dev = take(scratch, all * stride);
     let minus = take(scratch, all * shape.minus);
     let root = take(scratch, all * r);
@@ -77,45 +85,69 @@ pub(super) fn sense<'a, T: Real, H: Observation, R: Rule>(
     rule.spread(table, &SensedMap(h), at, belief.mean, drawn, &mut spread, scratch);
     let sick = lanes(h.noise_root(at, root), Matrix::MeasurementNoise)?;
 
-    let (mut d, mut exact) = (0, T::Mask::splat(false));
+    let (mut d, mut dof, mut exact) = (0, T::zero(), T::Mask::splat(false));
+    let mut unit = filled;
     for i in 0..all {
-        if measurement.present.is_some_and(|present| !present[i]) {
+        let there = measurement.present.lanes(i);
+        if !there.any() {
             continue;
+        }
+        if stride > filled {
+            dev[i * stride + filled..(i + 1) * stride].fill(T::zero());
+        }
+        let partly = !there.all();
+        if partly {
+            for part in [
+                &mut dev[i * stride..i * stride + n + shape.plus],
+                &mut minus[i * shape.minus..(i + 1) * shape.minus],
+                &mut root[i * r..(i + 1) * r],
+                &mut mean[i..=i],
+            ] {
+                for x in part {
+                    *x = T::select(there, *x, T::zero());
+                }
+            }
+            dev[i * stride + unit] = T::select(there, T::zero(), T::one());
+            unit += 1;
         }
         let bad = |quantity| Err(Fault::NotFinite { quantity, component: i });
         let row = &dev[i * stride..i * stride + n + shape.plus];
-        let size = row.iter().fold(mean[i].abs(), |sum, &x| sum + x.abs());
+        let size = plus_magnitudes(mean[i].abs(), row);
         if (!size.finite()).all() {
             // a rule without points takes derivatives
             let derived = shape.points == 0 && mean[i].finite().any();
             return bad(if derived { Quantity::ObservationDerivative } else { Quantity::Observation });
         }
         let noise = &root[i * r..(i + 1) * r];
-        let deviation = noise.iter().fold(T::zero(), |sum, &x| sum + x.abs());
+        let deviation = plus_magnitudes(T::zero(), noise);
         if (!deviation.finite()).all() {
             return bad(Quantity::MeasurementNoise);
         }
-        exact = exact | deviation.le(T::of(64.0 * T::EPSILON) * size);
+        exact = exact | (deviation.le(T::of(64.0 * T::EPSILON) * size) & there);
         if (!measurement.z[i].finite()).all() {
             return bad(Quantity::Measurement);
         }
         // move the row up over the absent ones: the root of the kept R is its kept rows, all columns
         dev.copy_within(i * stride..(i + 1) * stride, d * stride);
-        dev[d * stride + n + shape.plus..(d + 1) * stride].copy_from_slice(noise);
+        dev[d * stride + n + shape.plus..d * stride + filled].copy_from_slice(noise);
         minus.copy_within(i * shape.minus..(i + 1) * shape.minus, d * shape.minus);
         let nu = measurement.z[i] - mean[i];
-        let wrapped = |x: T| h.angle(i).map_or(x, |period| x.wrap(T::of(period)));
-        innovation.nu[d] = wrapped(nu);
-        mean[d] = wrapped(mean[i]);
+        let nu = if partly { T::select(there, nu, T::zero()) } else { nu };
+        (innovation.nu[d], mean[d]) = match h.angle(i) {
+            Some(period) => (nu.wrap(T::of(period)), mean[i].wrap(T::of(period))),
+            None => (nu, mean[i]),
+        };
+        dof += if partly { T::select(there, T::one(), T::zero()) } else { T::one() };
         d += 1;
     }
     if moved {
         turn(belief.moved, dev, d, stride, scratch);
     }
-    Ok((Sensed { d, dev, stride, minus, lost: shape.minus, exact }, sick))
+    Ok((Sensed { d, dof, dev, stride, minus, lost: shape.minus, exact }, sick))
 }
 
 /// [M; D] Q = [S; D Q] with S lower triangular: D from the coordinates of M to those of S.
+#[inline(always)]
 fn turn<T: Real>(moved: &[T], dev: &mut [T], d: usize, stride: usize, scratch: &mut [T]) {
     let n = moved.len().isqrt();
     let size = n + d;

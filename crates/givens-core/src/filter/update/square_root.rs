@@ -59,9 +59,11 @@ pub(super) fn update<'a, T: Real>(
     let block = &*block;
     let top = Rows { of: &block[d * size..], stride: size };
     let turn = Rows { of: &block[block.len() - n * size..], stride: size };
-    let along_white = |rows: Rows<T>, i| dot(rows.row(i, d), innovation.white);
+    let white = &innovation.white[..d];
     if below != Below::State {
-        moved.iter_mut().enumerate().for_each(|(i, x)| *x = along_white(turn, i));
+        for (i, x) in moved.iter_mut().enumerate() {
+            *x = dot(turn.row(i, d), white);
+        }
     }
     let b = Rows { of: &turn.of[d..], stride: size };
     let posterior = if below == Below::Unit {
@@ -71,7 +73,7 @@ pub(super) fn update<'a, T: Real>(
         Rows { of: factor, stride: n }
     } else {
         for (i, (to, &m)) in mean.iter_mut().zip(&*belief.mean).enumerate() {
-            *to = m + along_white(top, i);
+            *to = m + dot(top.row(i, d), white);
         }
         Rows { of: &top.of[d..], stride: size }
     };

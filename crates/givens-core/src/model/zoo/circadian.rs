@@ -116,6 +116,7 @@ impl Sde for Circadian {
         dx[2] = T::of(60.0) * (rate * (T::one() - used) - T::of(self.recovery) * used);
     }
 
+    #[inline(always)]
     fn diffusion<T: Real>(&self, _: &At<T>, _: &[T], g: &mut [T]) {
         g.fill(T::zero());
         g[0] = T::of(self.noise);

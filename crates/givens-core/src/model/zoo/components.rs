@@ -44,6 +44,7 @@ impl<const D: usize> Observation for Components<D> {
         Noise::Root(D)
     }
 
+    #[inline(always)]
     fn measurement_noise<T: Real>(&self, _: &At<T>, out: &mut [T]) {
         out.fill(T::zero());
         for (out, &std) in out.iter_mut().step_by(D + 1).zip(&self.std) {

@@ -48,6 +48,7 @@ impl Transition for CoordinatedTurn {
         Noise::Covariance
     }
 
+    #[inline(always)]
     fn process_noise<T: Real>(&self, at: &At<T>, out: &mut [T]) {
         out.fill(T::zero());
         let (q1, dt) = (T::of(self.q1), at.dt);

@@ -54,6 +54,7 @@ impl Sde for HarmonicOscillator {
         dx[1] = -(T::of(w * w) * x[0]) - T::of(2.0 * self.damping * w) * x[1];
     }
 
+    #[inline(always)]
     fn diffusion<T: Real>(&self, _: &At<T>, _: &[T], g: &mut [T]) {
         g[0] = T::zero();
         g[1] = T::of(self.noise);

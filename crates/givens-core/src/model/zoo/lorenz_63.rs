@@ -56,9 +56,12 @@ impl Sde for Lorenz63 {
         dx[2] = x[0] * x[1] - T::of(self.beta) * x[2];
     }
 
+    #[inline(always)]
     fn diffusion<T: Real>(&self, _: &At<T>, _: &[T], g: &mut [T]) {
         g.fill(T::zero());
-        g.iter_mut().step_by(4).for_each(|g| *g = T::of(self.noise));
+        for g in g.iter_mut().step_by(4) {
+            *g = T::of(self.noise);
+        }
     }
 
     fn diffusion_varies(&self) -> Varies {

@@ -50,6 +50,7 @@ impl Sde for OrnsteinUhlenbeck {
         dx[0] = T::of(self.rate) * (T::of(self.level) - x[0]);
     }
 
+    #[inline(always)]
     fn diffusion<T: Real>(&self, _: &At<T>, _: &[T], g: &mut [T]) {
         g[0] = T::of(self.noise);
     }

@@ -45,6 +45,7 @@ impl Observation for Radar3d {
         Noise::Root(3)
     }
 
+    #[inline(always)]
     fn measurement_noise<T: Real>(&self, _: &At<T>, out: &mut [T]) {
         out.fill(T::zero());
         out[0] = T::of(self.range);

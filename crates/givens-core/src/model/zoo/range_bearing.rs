@@ -46,6 +46,7 @@ impl Observation for RangeBearing {
     fn noise(&self) -> Noise {
         Noise::Root(2)
     }
+    #[inline(always)]
     fn measurement_noise<T: Real>(&self, _: &At<T>, out: &mut [T]) {
         out.copy_from_slice(&[T::of(self.range_std), T::zero(), T::zero(), T::of(self.bearing_std)]);
     }

@@ -57,6 +57,7 @@ impl Sde for Reentry {
         dx[2] = T::zero();
     }
 
+    #[inline(always)]
     fn diffusion<T: Real>(&self, _: &At<T>, _: &[T], g: &mut [T]) {
         g.fill(T::zero());
         g[2] = T::of(self.speed_noise);
@@ -104,6 +105,7 @@ impl Observation for RangeAside {
         Noise::Root(1)
     }
 
+    #[inline(always)]
     fn measurement_noise<T: Real>(&self, _: &At<T>, out: &mut [T]) {
         out[0] = T::of(self.std);
     }

@@ -56,6 +56,7 @@ impl Sde for Turn3d {
         dx[6] = T::zero();
     }
 
+    #[inline(always)]
     fn diffusion<T: Real>(&self, _: &At<T>, _: &[T], g: &mut [T]) {
         g.fill(T::zero());
         for (noise, state) in [1, 3, 5].into_iter().enumerate() {
@@ -75,9 +76,9 @@ impl Sde for Turn3d {
         for (i, dx) in dx.chunks_exact_mut(points.max(1)).enumerate() {
             match i {
                 0 => dx.copy_from_slice(vx),
-                1 => dx.iter_mut().zip(rate).zip(vy).for_each(|((dx, &w), &v)| *dx = -(w * v)),
+                1 => turned(dx, -T::one(), rate, vy),
                 2 => dx.copy_from_slice(vy),
-                3 => dx.iter_mut().zip(rate).zip(vx).for_each(|((dx, &w), &v)| *dx = w * v),
+                3 => turned(dx, T::one(), rate, vx),
                 4 => dx.copy_from_slice(vz),
                 _ => dx.fill(T::zero()),
             }
@@ -102,19 +103,15 @@ impl Sde for Turn3d {
         let (vx, vy, rate) = (row(1), row(3), row(6));
         let rows = l0.chunks_exact_mut(points.max(1));
         for (i, l0) in rows.enumerate() {
-            let turned = l0.iter_mut().zip(rate);
             match i {
-                0 => turned.zip(vy).for_each(|((to, &w), &v)| *to = -(w * v)),
-                1 => turned.zip(vx).for_each(|((to, &w), &v)| *to = -(w * (w * v))),
-                2 => turned.zip(vx).for_each(|((to, &w), &v)| *to = w * v),
-                3 => turned.zip(vy).for_each(|((to, &w), &v)| *to = -(w * (w * v))),
+                0 => turned(l0, -T::one(), rate, vy),
+                1 => turned_twice(l0, rate, vx),
+                2 => turned(l0, T::one(), rate, vx),
+                3 => turned_twice(l0, rate, vy),
                 _ => l0.fill(T::zero()),
             }
         }
         for (at, lf) in lf.chunks_exact_mut(points.max(1)).enumerate() {
-            let scaled = |lf: &mut [T], by: T, of: &[T]| {
-                lf.iter_mut().zip(of).for_each(|(lf, &x)| *lf = by * x);
-            };
             match (at / 4, at % 4) {
                 (0, 0) | (2, 1) | (4, 2) => lf.fill(first),
                 (1, 1) => scaled(lf, -first, rate),
@@ -124,6 +121,29 @@ impl Sde for Turn3d {
                 _ => lf.fill(T::zero()),
             }
         }
+    }
+}
+
+#[inline(always)]
+fn scaled<T: Real>(to: &mut [T], by: T, of: &[T]) {
+    for (to, &x) in to.iter_mut().zip(of) {
+        *to = by * x;
+    }
+}
+
+/// ± ω v.
+#[inline(always)]
+fn turned<T: Real>(to: &mut [T], sign: T, rate: &[T], v: &[T]) {
+    for ((to, &w), &v) in to.iter_mut().zip(rate).zip(v) {
+        *to = sign * (w * v);
+    }
+}
+
+/// −ω² v.
+#[inline(always)]
+fn turned_twice<T: Real>(to: &mut [T], rate: &[T], v: &[T]) {
+    for ((to, &w), &v) in to.iter_mut().zip(rate).zip(v) {
+        *to = -(w * (w * v));
     }
 }
 

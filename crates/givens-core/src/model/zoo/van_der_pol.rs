@@ -51,6 +51,7 @@ impl Sde for VanDerPol {
         dx[1] = T::of(self.stiffness) * (T::one() - x[0] * x[0]) * x[1] - x[0];
     }
 
+    #[inline(always)]
     fn diffusion<T: Real>(&self, _: &At<T>, _: &[T], g: &mut [T]) {
         g[0] = T::zero();
         g[1] = T::of(self.noise);

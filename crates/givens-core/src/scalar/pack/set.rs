@@ -27,6 +27,9 @@ pub enum InstructionSet {
 pub trait Job<E: Element> {
     /// What the work gives.
     type Output;
+    /// Whether it is compiled for AVX-512 too. Its vectors are twice as wide as AVX2's, but many machines do not compute more
+    /// with them: long work may not be worth the compiling. It is then as if no machine had the set.
+    const AVX512: bool = true;
     /// The work, on packs of type `P`.
     fn run<P: Pack<Element = E>>(self) -> Self::Output;
 }
@@ -76,6 +79,22 @@ impl InstructionSet {
             }
         })
     }
+
+    /// Does the work on packs of this set if they are registers; else gives it back. Arrays are not compiled for it.
+    ///
+    /// # Errors
+    /// The work, undone: the machine lacks the set, or it is the portable one.
+    #[allow(clippy::result_large_err, reason = "the job comes back as it was")]
+    pub fn run_in_registers<E: Element, J: Job<E>>(self, job: J) -> Result<J::Output, J> {
+        if !self.available() {
+            return Err(job);
+        }
+        // SAFETY: the line above has seen that the set is available.
+        #[allow(unsafe_code)]
+        unsafe {
+            E::dispatch_registers(self, job)
+        }
+    }
 }
 
 /// From a set and a precision to the type of the pack.
@@ -88,6 +107,15 @@ pub trait Dispatch: Sized {
     unsafe fn dispatch<J: Job<Self>>(set: InstructionSet, job: J) -> J::Output
     where
         Self: Element;
+
+    /// Does the work on packs of `set` if they are registers; else gives it back.
+    ///
+    /// # Safety
+    /// The set must be available on this machine.
+    #[allow(unsafe_code)]
+    unsafe fn dispatch_registers<J: Job<Self>>(set: InstructionSet, job: J) -> Result<J::Output, J>
+    where
+        Self: Element;
 }
 
 macro_rules! dispatch {
@@ -96,6 +124,15 @@ macro_rules! dispatch {
         impl Dispatch for $float {
             #[inline(always)]
             unsafe fn dispatch<J: Job<$float>>(set: InstructionSet, job: J) -> J::Output {
+                // SAFETY: the caller promises what this one asks for.
+                match unsafe { Self::dispatch_registers(set, job) } {
+                    Ok(output) => output,
+                    Err(job) => job.run::<$array>(),
+                }
+            }
+
+            #[inline(always)]
+            unsafe fn dispatch_registers<J: Job<$float>>(set: InstructionSet, job: J) -> Result<J::Output, J> {
                 #[cfg(target_arch = "x86_64")]
                 #[target_feature(enable = "avx2,fma")]
                 fn avx2<J: Job<$float>>(job: J) -> J::Output {
@@ -106,17 +143,19 @@ macro_rules! dispatch {
                 fn avx512<J: Job<$float>>(job: J) -> J::Output {
                     job.run::<super::avx512::$avx512>()
                 }
+                #[cfg(target_arch = "x86_64")]
+                if J::AVX512 && set == InstructionSet::Avx512 {
+                    // SAFETY: the caller promises that the machine has the set, and with it the features of the function.
+                    return Ok(unsafe { avx512(job) });
+                }
                 match set {
                     // SAFETY: the caller promises that the machine has the set, and with it the features of the function.
                     #[cfg(target_arch = "x86_64")]
-                    InstructionSet::Avx2 => unsafe { avx2(job) },
-                    // SAFETY: as above.
-                    #[cfg(target_arch = "x86_64")]
-                    InstructionSet::Avx512 => unsafe { avx512(job) },
+                    InstructionSet::Avx2 => Ok(unsafe { avx2(job) }),
                     // NEON is part of every aarch64 that has it at all: no function of its own is needed
                     #[cfg(all(target_arch = "aarch64", target_feature = "neon"))]
-                    InstructionSet::Neon => job.run::<super::neon::$neon>(),
-                    _ => job.run::<$array>(),
+                    InstructionSet::Neon => Ok(job.run::<super::neon::$neon>()),
+                    _ => Err(job),
                 }
             }
         }

@@ -1,0 +1,201 @@
+//! One pack: several tracks, row by row, each at its own times.
+
+use super::Track;
+use super::record::Lanes;
+use crate::filter::{Filter, Over, Prior};
+use crate::model::Observation;
+use crate::rule::Rule;
+use crate::run::{Goal, Outcome, Stop, stopped};
+use crate::scalar::{InstructionSet, Job, LaneMask, MAX_WIDTH, Mask, Pack};
+use crate::smoother::{History, Smoothed};
+
+/// Tracks over one model and its sensors, at most as many as a pack has lanes.
+pub(super) struct Lockstep<'s, 't, X, M, H> {
+    pub method: X,
+    pub tracks: &'s [Track<'t, M, H>],
+    pub goal: Goal,
+    pub stop: Stop<'s>,
+}
+
+/// Lanes of the packs of an instruction set; one where it is none of this machine's registers.
+pub(super) fn width(vectors: InstructionSet) -> usize {
+    struct Width;
+    impl Job<f64> for Width {
+        type Output = usize;
+        const AVX512: bool = false;
+        #[inline(always)]
+        fn run<P: Pack<Element = f64>>(self) -> usize {
+            P::WIDTH
+        }
+    }
+    vectors.run_in_registers(Width).unwrap_or(1)
+}
+
+impl<X: Over<M>, M, H: Observation> Job<f64> for Lockstep<'_, '_, X, M, H> {
+    /// For each track what came of it, or none if it is to be run alone.
+    type Output = Vec<Option<Outcome>>;
+    const AVX512: bool = false;
+
+    #[inline(always)]
+    fn run<P: Pack<Element = f64>>(self) -> Self::Output {
+        let Self { method, tracks, goal, stop } = self;
+        let nothing = || tracks.iter().map(|_| None).collect();
+        let Some((mut filter, begun)) = begin::<P, X, M, H>(method, tracks, goal) else {
+            return nothing();
+        };
+        let n = filter.mean().len();
+        let longest = tracks.iter().map(|track| track.data.len()).max().unwrap_or(0);
+        let smoothing = goal != Goal::Filter;
+        let records = if smoothing { longest } else { 0 };
+        let mut history = History::<P, Vec<P>>::new(
+            n,
+            true,
+            vec![P::zero(); History::<P, Vec<P>>::memory_len(n, records)],
+        );
+        let mut spare = vec![P::zero(); Filter::<X, M, P, Vec<P>>::spare_len(n)];
+        let mut rows = Rows::<P>::begin(tracks, filter.controls(), begun);
+        let mut lanes = Lanes::<P>::new(tracks, goal);
+        for k in 0..longest {
+            if stopped(stop) || rows.well == 0 {
+                return nothing();
+            }
+            rows.read(tracks, k);
+            filter.set_controls_in_lanes(&rows.before);
+            let moved = history.predict_lanes(&mut filter, &rows.from, &rows.to, &mut spare);
+            lanes.predicted(&filter, k, rows.active);
+            filter.set_controls_in_lanes(&rows.after);
+            let taught = filter.update_lanes(tracks[0].sensors, &rows.to, &rows.z, &rows.present);
+            rows.well &= !((moved | taught).bits() & rows.active);
+            lanes.updated(&filter, k, &rows.present, rows.active);
+            rows.next();
+        }
+        let mut well = rows.well;
+        if smoothing && longest > 0 {
+            let mut way = Vec::with_capacity(longest * (n + n * n));
+            let done = history.smooth(&filter, longest - 1, |_, smoothed: &Smoothed<P>| {
+                way.extend_from_slice(smoothed.belief.mean);
+                way.extend_from_slice(smoothed.belief.factor);
+            });
+            well &= if done.is_ok() { lanes.smoothed(&way) } else { 0 };
+        }
+        lanes.finish(well)
+    }
+}
+
+/// A filter over packs, and the lanes whose track has begun in it. A track that could not begin is left to be run alone, which
+/// says why.
+#[inline(always)]
+fn begin<'m, P: Pack<Element = f64>, X: Over<M>, M, H: Observation>(
+    method: X,
+    tracks: &[Track<'m, M, H>],
+    goal: Goal,
+) -> Option<(Filter<'m, X, M, P, Vec<P>>, u32)> {
+    let smoothing = goal != Goal::Filter;
+    let Track { model, sensors, .. } = *tracks.first()?;
+    let sizes = method.sizes(model).ok()?;
+    let sizes = sizes.with_sensor_in_lanes(sensors, method.rule().shape(sizes.states));
+    let prior = |track: &Track<'m, M, H>| Prior {
+        time: track.data.start(),
+        mean: track.prior.mean(),
+        factor: track.prior.factor(),
+        cov: track.prior.cov(),
+    };
+    let len = Filter::<X, M, P, Vec<P>>::memory_len(&method, sizes, smoothing);
+    let mut one = vec![0.0; len];
+    let mut filter: Option<Filter<'m, X, M, P, Vec<P>>> = None;
+    let mut begun = 0;
+    for (lane, track) in tracks.iter().enumerate() {
+        if track.data.measures() != sensors.measures() || track.data.controls() != sizes.controls {
+            continue;
+        }
+        let own = Filter::start_in(method, model, sizes, smoothing, prior(track), one.as_mut_slice());
+        let Ok(mut own) = own else { continue };
+        if !track.parameters.is_empty() && own.set_parameters(track.parameters).is_err() {
+            continue;
+        }
+        if filter.is_none() {
+            // every lane begins as a track that is well: those without one go along
+            let start = Filter::start_in(method, model, sizes, smoothing, prior(track), vec![P::zero(); len]);
+            let mut start = start.ok()?;
+            (0..P::WIDTH).for_each(|lane| {
+                start.fill_lane(lane, &mut own);
+            });
+            filter = Some(start);
+        }
+        begun |= u32::from(filter.as_mut()?.fill_lane(lane, &mut own)) << lane;
+    }
+    Some((filter?, begun))
+}
+
+/// The row at work, of every lane.
+struct Rows<P: Pack> {
+    /// Where each lane stands, and where it goes.
+    from: [f64; MAX_WIDTH],
+    to: [f64; MAX_WIDTH],
+    z: Vec<P>,
+    present: Vec<P::Mask>,
+    /// Controls on the way to the row, and from it on.
+    before: Vec<P>,
+    after: Vec<P>,
+    /// The lanes in which nothing has gone wrong.
+    well: u32,
+    /// Those of them that have this row.
+    active: u32,
+}
+
+impl<P: Pack<Element = f64>> Rows<P> {
+    #[inline(always)]
+    fn begin<M, H: Observation>(tracks: &[Track<M, H>], controls: usize, begun: u32) -> Self {
+        let mut from = [0.0; MAX_WIDTH];
+        for (from, track) in from.iter_mut().zip(tracks) {
+            *from = track.data.start();
+        }
+        let (d, c) = (tracks[0].sensors.measures(), controls);
+        Self {
+            from,
+            to: from,
+            z: vec![P::zero(); d],
+            present: vec![P::Mask::splat(false); d],
+            before: vec![P::zero(); c],
+            after: vec![P::zero(); c],
+            well: begun,
+            active: 0,
+        }
+    }
+
+    /// Reads row `k` of every track that has one; a lane that has none, or is not well, stays where it is.
+    #[inline(always)]
+    fn read<M, H: Observation>(&mut self, tracks: &[Track<M, H>], k: usize) {
+        self.active = 0;
+        self.present.fill(P::Mask::splat(false));
+        for (lane, track) in tracks.iter().enumerate() {
+            let row = track.data.row(k).filter(|_| self.well >> lane & 1 == 1);
+            if row.is_some_and(|row| row.u.iter().any(|u| !u.is_finite())) {
+                self.well &= !(1 << lane);
+            }
+            let row = row.filter(|_| self.well >> lane & 1 == 1);
+            self.to[lane] = row.map_or(self.from[lane], |row| row.time);
+            let Some(row) = row else { continue };
+            self.active |= 1 << lane;
+            for (i, &z) in row.z.iter().enumerate() {
+                self.z[i] = self.z[i].with_lane(lane, z);
+                if !z.is_nan() {
+                    self.present[i] = self.present[i] | P::Mask::of_bits(1 << lane);
+                }
+            }
+            for (i, &u) in row.u.iter().enumerate() {
+                self.after[i] = self.after[i].with_lane(lane, u);
+                if k == 0 {
+                    self.before[i] = self.before[i].with_lane(lane, u);
+                }
+            }
+        }
+    }
+
+    /// Goes on from this row.
+    #[inline(always)]
+    fn next(&mut self) {
+        self.from = self.to;
+        self.before.copy_from_slice(&self.after);
+    }
+}

@@ -154,7 +154,7 @@ fn a_lane_that_fails_is_as_alone_and_leaves_the_others_in_peace() {
     };
     let before = run(&data, &Batch::default());
     // one whose innovation has no finite square; one with a measurement of another length; one that ends in the past
-    let (last, long) = (data.len() - 1, 7);
+    let (last, long) = (data.len() - 1, 5);
     let mut far = Data::new(2).starting_at(0.0);
     for (k, row) in data[long].rows().enumerate() {
         let z = if k == 3 { &[1e300; 2][..] } else { row.z };
@@ -180,7 +180,8 @@ fn a_lane_that_fails_is_as_alone_and_leaves_the_others_in_peace() {
 fn tracks_of_several_models_and_priors_find_their_own() {
     let problems: Vec<_> = (0..3).map(|k| Problem::random(101 + k, 3, 2, 12, 0.05)).collect();
     let priors: Vec<Gaussian> = problems.iter().map(Problem::prior).collect();
-    let data: Vec<_> = problems.iter().map(|problem| tracks_of(&problem.z, 105, |row, _| row as f64)).collect();
+    let data: Vec<_> =
+        problems.iter().map(|problem| tracks_of(&problem.z, 105, |row, _| row as f64)).collect();
     let mut tracks = Vec::new();
     for k in 0..33 {
         let (which, track) = (k % 3, k / 3);

@@ -5,8 +5,8 @@ use super::methods::Over;
 use super::predict::{Plan, TimeUpdate};
 #[cfg(doc)]
 use super::sizes::Sizes;
-use super::steps::Grow;
 use super::stepper::Filter;
+use super::steps::Grow;
 use super::update::Present;
 use crate::kernels::plus_magnitudes;
 use crate::model::Observation;

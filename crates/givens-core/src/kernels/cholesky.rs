@@ -1,7 +1,7 @@
 //! Cholesky factorisation of a positive semidefinite matrix.
 
-use super::less_dot;
 use super::Health;
+use super::less_dot;
 use super::rest::{errors_above, norm};
 use crate::scalar::{Mask, Real};
 

@@ -1,7 +1,7 @@
 //! General square matrices: factors L and U with exchanged rows, and division by the matrix.
 
-use super::less_dot;
 use super::Health;
+use super::less_dot;
 use super::rest::norm;
 use super::solve::inverse_or_zero;
 use crate::scalar::{Mask, Real};

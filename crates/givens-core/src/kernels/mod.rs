@@ -17,7 +17,9 @@ pub use cholesky::{cholesky, cholesky_scaled};
 pub use downdate::downdate;
 pub use health::Health;
 pub use lu::{lu, lu_order, lu_solve, lu_solve_transposed};
-pub use product::{add_outer, copy_lower, dot, less_dot, plus_dot, plus_magnitudes, product_lower, square, wild_row};
+pub use product::{
+    add_outer, copy_lower, dot, less_dot, plus_dot, plus_magnitudes, product_lower, square, wild_row,
+};
 pub use solve::{divide_lower, divide_lower_transposed, solve_lower, solve_lower_rows};
 pub use sweep::sweep;
 pub use tria::tria;

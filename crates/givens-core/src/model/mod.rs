@@ -1,5 +1,6 @@
 //! Models: what moves the state and what measures it, written once over [`Real`](crate::scalar::Real).
 
+mod erased;
 mod expanded;
 mod flow;
 mod map;
@@ -9,6 +10,9 @@ mod stack;
 mod transition;
 pub mod zoo;
 
+pub use erased::{
+    AnyObservation, AnySde, AnyTransition, ObservationCalls, Question, SdeCalls, TransitionCalls,
+};
 pub use expanded::Expanded;
 pub(crate) use expanded::expanded_scratch;
 pub use flow::Flow;

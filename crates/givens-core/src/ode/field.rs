@@ -2,7 +2,7 @@
 
 use super::{System, Why};
 use crate::model::At;
-use crate::scalar::{Mask, Real};
+use crate::scalar::{Inside, Mask, Real};
 
 /// f as a function of t and y alone.
 pub(super) struct Field<'a, S, T> {
@@ -21,9 +21,33 @@ impl<S: System, T: Real> Field<'_, S, T> {
     #[inline(always)]
     pub fn slope(&mut self, t: T, y: &[T], dy: &mut [T]) -> Result<(), Failed<S::Fault>> {
         self.calls += 1;
-        let at = At { t, dt: T::zero(), u: self.u, p: self.p };
-        self.system.derivative(&at, self.table, y, dy, self.scratch).map_err(Failed::System)?;
-        finite(dy)
+        T::within(Slope { field: self, t, y, dy })
+    }
+}
+
+/// The largest piece of an integration, asked for in many places and compiled once.
+struct Slope<'s, 'f, S, T> {
+    field: &'s mut Field<'f, S, T>,
+    t: T,
+    y: &'s [T],
+    dy: &'s mut [T],
+}
+
+impl<S: System, T: Real> Slope<'_, '_, S, T> {
+    #[inline(always)]
+    fn evaluate(self) -> Result<(), Failed<S::Fault>> {
+        let Field { system, u, p, table, scratch, .. } = self.field;
+        let at = At { t: self.t, dt: T::zero(), u, p };
+        system.derivative(&at, table, self.y, self.dy, scratch).map_err(Failed::System)?;
+        finite(self.dy)
+    }
+}
+
+impl<S: System, T: Real> Inside for Slope<'_, '_, S, T> {
+    type Output = Result<(), Failed<S::Fault>>;
+    #[inline(always)]
+    fn go(self) -> Self::Output {
+        self.evaluate()
     }
 }
 

@@ -1,6 +1,6 @@
 //! Second-order duals: a value with its first and second derivative along one direction.
 
-use super::Real;
+use super::{Inside, Real};
 use core::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
 /// x(s) = v + d s + ½ dd s² + …: a value, and its first and second derivative along one direction s.
@@ -133,6 +133,11 @@ impl<T: Real> MulAssign for Dual2<T> {
 impl<T: Real> Real for Dual2<T> {
     type Mask = T::Mask;
     const EPSILON: f64 = T::EPSILON;
+
+    #[inline(always)]
+    fn within<W: Inside>(work: W) -> W::Output {
+        T::within(work)
+    }
 
     #[inline(always)]
     fn of(value: f64) -> Self {

@@ -3,11 +3,13 @@
 
 mod dual;
 mod float;
+mod grain;
 mod math;
 mod pack;
 mod shown;
 
 pub use dual::{Dual2, as_duals};
+pub(crate) use grain::{Grain, floats, floats_mut, numbers, numbers_mut};
 pub use pack::{Element, InstructionSet, Job, LaneMask, MAX_WIDTH, Pack, gather, scatter};
 pub use shown::Shown;
 
@@ -37,6 +39,15 @@ impl Mask for bool {
     fn any(self) -> bool {
         self
     }
+}
+
+/// Work on numbers whose instructions a program built for any machine may use in part of its functions only; see
+/// [`Real::within`].
+pub trait Inside {
+    /// What the work gives.
+    type Output;
+    /// The work. To be marked `#[inline(always)]`, with all that it calls.
+    fn go(self) -> Self::Output;
 }
 
 /// A real number, or several side by side, with or without derivatives.
@@ -71,6 +82,16 @@ pub trait Real:
     type Mask: Mask;
     /// The distance from one to the next larger number of the underlying float.
     const EPSILON: f64;
+
+    /// Does work on such numbers in a function of its own, compiled with the instructions that they need: a place where code
+    /// over packs need not be inlined any further.
+    #[inline(always)]
+    fn within<W: Inside>(work: W) -> W::Output {
+        fn inside<W: Inside>(work: W) -> W::Output {
+            work.go()
+        }
+        inside(work)
+    }
 
     /// The constant `value`, in every lane and without derivative.
     fn of(value: f64) -> Self;

@@ -47,11 +47,8 @@ impl<X: Over<M>, M, H: Observation> Job<f64> for Lockstep<'_, '_, X, M, H> {
         let longest = tracks.iter().map(|track| track.data.len()).max().unwrap_or(0);
         let smoothing = goal != Goal::Filter;
         let records = if smoothing { longest } else { 0 };
-        let mut history = History::<P, Vec<P>>::new(
-            n,
-            true,
-            vec![P::zero(); History::<P, Vec<P>>::memory_len(n, records)],
-        );
+        let mut history =
+            History::<P, Vec<P>>::new(n, true, vec![P::zero(); History::<P, Vec<P>>::memory_len(n, records)]);
         let mut spare = vec![P::zero(); Filter::<X, M, P, Vec<P>>::spare_len(n)];
         let mut rows = Rows::<P>::begin(tracks, filter.controls(), begun);
         let mut lanes = Lanes::<P>::new(tracks, goal);

@@ -12,7 +12,7 @@ use crate::run::{Goal, Outcome, run_until, stopped};
 use core::num::NonZeroUsize;
 use core::sync::atomic::AtomicBool;
 use lockstep::Lockstep;
-use pack::{Unit, packable, units};
+use pack::{packable, units};
 use workers::each;
 
 pub use crate::scalar::InstructionSet;
@@ -112,30 +112,44 @@ impl Batch<'_> {
         M: Sync,
         H: Observation + Sync,
     {
-        let width = if packable(&method, self.goal) { lockstep::width(self.vectors) } else { 1 };
-        self.each_unit(tracks, width, |unit| self.unit(method, tracks, unit))
+        self.run_with(method, tracks, |track| self.alone(method, track))
     }
 
-    /// The same without packs, whatever the vectors.
-    pub(crate) fn run_alone<X, M, H>(&self, method: X, tracks: &[Track<M, H>]) -> Vec<Option<Outcome>>
+    /// The same; `alone` runs a track that no pack serves.
+    pub(crate) fn run_with<X, M, H>(
+        &self,
+        method: X,
+        tracks: &[Track<M, H>],
+        alone: impl Fn(&Track<M, H>) -> Option<Outcome> + Sync,
+    ) -> Vec<Option<Outcome>>
     where
         X: Over<M> + Sync,
         M: Sync,
         H: Observation + Sync,
     {
-        let alone = |k: &usize| self.alone(method, &tracks[*k]);
-        self.each_unit(tracks, 1, |unit| unit.tracks.iter().map(alone).collect())
+        let width = if packable(&method, self.goal) { lockstep::width(self.vectors) } else { 1 };
+        let pack = |of: &[Track<M, H>]| {
+            let job = Lockstep { method, tracks: of, goal: self.goal, stop: self.cancel };
+            self.vectors.run_in_registers(job).unwrap_or_default()
+        };
+        self.run_by(tracks, width, pack, alone)
     }
 
-    /// What comes of the units of so many tracks, put back into the order of the tracks.
-    fn each_unit<M: Sync, H: Sync>(
+    /// Shares the tracks out, in packs of up to `width`. What a pack could not do is done again, alone.
+    pub(crate) fn run_by<M: Sync, H: Sync>(
         &self,
         tracks: &[Track<M, H>],
         width: usize,
-        one: impl Fn(&Unit) -> Vec<Option<Outcome>> + Sync,
+        pack: impl Fn(&[Track<M, H>]) -> Vec<Option<Outcome>> + Sync,
+        alone: impl Fn(&Track<M, H>) -> Option<Outcome> + Sync,
     ) -> Vec<Option<Outcome>> {
         let units = units(tracks, width);
-        let done = each(&units, self.threads, one);
+        let done = each(&units, self.threads, |unit| {
+            let own: Vec<Track<M, H>> = unit.tracks.iter().map(|&k| tracks[k]).collect();
+            let lanes = if own.len() > 1 { pack(&own) } else { Vec::new() };
+            let lanes = lanes.into_iter().chain(core::iter::repeat_with(|| None));
+            own.iter().zip(lanes).map(|(track, lane)| lane.or_else(|| alone(track))).collect::<Vec<_>>()
+        });
         let mut outcomes: Vec<Option<Outcome>> = tracks.iter().map(|_| None).collect();
         for (unit, done) in units.iter().zip(done) {
             for (&k, outcome) in unit.tracks.iter().zip(done) {
@@ -145,29 +159,12 @@ impl Batch<'_> {
         outcomes
     }
 
-    /// The tracks of one unit of work.
-    fn unit<X: Over<M>, M, H: Observation>(
+    /// One track by itself.
+    pub(crate) fn alone<X: Over<M>, M, H: Observation>(
         &self,
         method: X,
-        tracks: &[Track<M, H>],
-        unit: &Unit,
-    ) -> Vec<Option<Outcome>> {
-        let alone = |k: &usize| self.alone(method, &tracks[*k]);
-        if unit.tracks.len() < 2 {
-            return unit.tracks.iter().map(alone).collect();
-        }
-        let pack: Vec<Track<M, H>> = unit.tracks.iter().map(|&k| tracks[k]).collect();
-        let job = Lockstep { method, tracks: &pack, goal: self.goal, stop: self.cancel };
-        match self.vectors.run_in_registers(job) {
-            // what a pack could not do is done again, alone
-            Ok(lanes) => {
-                unit.tracks.iter().zip(lanes).map(|(k, lane)| lane.or_else(|| alone(k))).collect()
-            }
-            Err(_) => unit.tracks.iter().map(alone).collect(),
-        }
-    }
-
-    fn alone<X: Over<M>, M, H: Observation>(&self, method: X, track: &Track<M, H>) -> Option<Outcome> {
+        track: &Track<M, H>,
+    ) -> Option<Outcome> {
         if stopped(self.cancel) {
             return None;
         }

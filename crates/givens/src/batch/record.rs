@@ -58,12 +58,7 @@ impl<P: Pack<Element = f64>> Lanes<P> {
 
     /// Writes down what `active` lanes predict for row `k`.
     #[inline(always)]
-    pub fn predicted<X: Over<M>, M>(
-        &mut self,
-        filter: &Filter<'_, X, M, P, Vec<P>>,
-        k: usize,
-        active: u32,
-    ) {
+    pub fn predicted<X: Over<M>, M>(&mut self, filter: &Filter<'_, X, M, P, Vec<P>>, k: usize, active: u32) {
         let n = self.states;
         self.put(filter.mean(), k, active, |out| &mut out.predicted_mean);
         let mut cov = core::mem::take(&mut self.matrix);

@@ -1,11 +1,13 @@
 //! A chosen method over many trajectories.
 
 use super::choice::Choice;
-use super::dispatch::Job;
+use super::dispatch::{Job, Packed};
 use crate::batch::{Batch, Track, refused};
-use crate::filter::{Form, Over};
-use crate::model::{Observation, Sde, Transition};
+use crate::filter::Over;
+use crate::filter::predict::OneTransition;
+use crate::model::{AnyObservation, AnySde, AnyTransition, Observation, Sde, Transition};
 use crate::run::Outcome;
+use std::collections::HashMap;
 
 impl Choice {
     /// Runs a discrete method over many trajectories; see [`Batch::run`]. A continuous one fails at the first row of each.
@@ -14,7 +16,10 @@ impl Choice {
         tracks: &[Track<M, H>],
         batch: &Batch,
     ) -> Vec<Option<Outcome>> {
-        self.discrete(All { tracks, batch }).unwrap_or_else(|fault| refused(fault, tracks, batch.goal))
+        let models = Pointed::new(tracks.iter().map(|track| track.model), |model| AnyTransition(model));
+        let sensors =
+            Pointed::new(tracks.iter().map(|track| track.sensors), |sensors| AnyObservation(sensors));
+        self.run_any_batch(&behind(tracks, &models, &sensors), batch)
     }
 
     /// Runs a continuous method over many trajectories; see [`Batch::run`]. A discrete one fails at the first row of each.
@@ -23,23 +28,106 @@ impl Choice {
         tracks: &[Track<M, H>],
         batch: &Batch,
     ) -> Vec<Option<Outcome>> {
-        self.continuous(All { tracks, batch }).unwrap_or_else(|fault| refused(fault, tracks, batch.goal))
+        let models = Pointed::new(tracks.iter().map(|track| track.model), |model| AnySde(model));
+        let sensors =
+            Pointed::new(tracks.iter().map(|track| track.sensors), |sensors| AnyObservation(sensors));
+        self.run_any_batch_continuous(&behind(tracks, &models, &sensors), batch)
+    }
+
+    // not generic: every filter of run time is compiled here, once; in packs, those by points or derivatives over one
+    // transition or by Itô and Taylor, in square-root form
+
+    fn run_any_batch(
+        &self,
+        tracks: &[Track<AnyTransition, AnyObservation>],
+        batch: &Batch,
+    ) -> Vec<Option<Outcome>> {
+        if let Err(fault) = self.discrete::<AnyTransition, _>(Nothing) {
+            return refused(fault, tracks, batch.goal);
+        }
+        let alone = |track: &Track<AnyTransition, AnyObservation>| {
+            self.discrete(Alone { track, batch }).ok().flatten()
+        };
+        match self.packed(OneTransition) {
+            Some(Packed::Points(by)) => batch.run_with(by, tracks, alone),
+            Some(Packed::Taylor(by)) => batch.run_with(by, tracks, alone),
+            None => batch.run_by(tracks, 1, |_| Vec::new(), alone),
+        }
+    }
+
+    fn run_any_batch_continuous(
+        &self,
+        tracks: &[Track<AnySde, AnyObservation>],
+        batch: &Batch,
+    ) -> Vec<Option<Outcome>> {
+        if let Err(fault) = self.continuous::<AnySde, _>(Nothing) {
+            return refused(fault, tracks, batch.goal);
+        }
+        let alone =
+            |track: &Track<AnySde, AnyObservation>| self.continuous(Alone { track, batch }).ok().flatten();
+        match self.ito_taylor().and_then(|time| self.packed(time)) {
+            Some(Packed::Points(by)) => batch.run_with(by, tracks, alone),
+            Some(Packed::Taylor(by)) => batch.run_with(by, tracks, alone),
+            None => batch.run_by(tracks, 1, |_| Vec::new(), alone),
+        }
     }
 }
 
-struct All<'s, 't, M, H> {
-    tracks: &'s [Track<'t, M, H>],
+/// Each model once, however many tracks have it: those that have one in common go together.
+struct Pointed<D> {
+    all: Vec<D>,
+    /// Of every track, which.
+    of: Vec<usize>,
+}
+
+impl<D> Pointed<D> {
+    fn new<'m, M: 'm>(models: impl Iterator<Item = &'m M>, pointer: impl Fn(&'m M) -> D) -> Self {
+        let (mut all, mut seen) = (Vec::new(), HashMap::new());
+        let of = models.map(|model| {
+            *seen.entry(core::ptr::from_ref(model)).or_insert_with(|| {
+                all.push(pointer(model));
+                all.len() - 1
+            })
+        });
+        let of = of.collect();
+        Self { all, of }
+    }
+}
+
+/// The same tracks over models and sensors behind pointers.
+fn behind<'a, M, H, D, E>(
+    tracks: &[Track<'a, M, H>],
+    models: &'a Pointed<D>,
+    sensors: &'a Pointed<E>,
+) -> Vec<Track<'a, D, E>> {
+    let track = |(k, track): (usize, &Track<'a, M, H>)| Track {
+        model: &models.all[models.of[k]],
+        sensors: &sensors.all[sensors.of[k]],
+        data: track.data,
+        prior: track.prior,
+        parameters: track.parameters,
+        at: track.at,
+    };
+    tracks.iter().enumerate().map(track).collect()
+}
+
+/// Whether the method is for such models.
+struct Nothing;
+
+impl<M> Job<M> for Nothing {
+    type Done = ();
+    fn with<X: Over<M> + Send + Sync + 'static>(self, _: X) {}
+}
+
+/// One track by itself.
+struct Alone<'s, 't, M, H> {
+    track: &'s Track<'t, M, H>,
     batch: &'s Batch<'s>,
 }
 
-impl<M: Sync, H: Observation + Sync> Job<M> for All<'_, '_, M, H> {
-    type Done = Vec<Option<Outcome>>;
+impl<M, H: Observation> Job<M> for Alone<'_, '_, M, H> {
+    type Done = Option<Outcome>;
     fn with<X: Over<M> + Send + Sync + 'static>(self, method: X) -> Self::Done {
-        // each method in packs is some seconds of compiling: those that users of many tracks choose have it
-        if X::Form::SQUARE_ROOT {
-            self.batch.run(method, self.tracks)
-        } else {
-            self.batch.run_alone(method, self.tracks)
-        }
+        self.batch.alone(method, self.track)
     }
 }

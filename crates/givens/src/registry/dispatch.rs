@@ -17,6 +17,12 @@ pub(super) trait Job<M> {
     fn with<X: Over<M> + Send + Sync + 'static>(self, method: X) -> Self::Done;
 }
 
+/// A method that is compiled for packs.
+pub(super) enum Packed<U> {
+    Points(Parts<AnyPoints, SquareRoot, U>),
+    Taylor(Parts<Taylor, SquareRoot, U>),
+}
+
 impl Choice {
     /// What is wrong with the options for a model of `states` states, if anything.
     ///
@@ -84,6 +90,23 @@ impl Choice {
             None => Err(NOT_DISCRETE),
             Some(AnyTime::LevelSet(_)) if self.form == FormName::Covariance => Err(LEVEL_SET_IN_COVARIANCE),
             Some(time) => Ok(self.over(time, job)),
+        }
+    }
+
+    /// The time update of a method by Itô and Taylor.
+    pub(super) fn ito_taylor(&self) -> Option<ItoTaylor> {
+        match self.time() {
+            Some(AnyTime::ItoTaylor(time)) => Some(time),
+            _ => None,
+        }
+    }
+
+    /// The method with this time update, if it is one of those that are compiled for packs.
+    pub(super) fn packed<U: Copy>(&self, time: U) -> Option<Packed<U>> {
+        match (self.form, self.rule) {
+            (FormName::Covariance, _) | (_, RuleName::CentralDifference) => None,
+            (_, RuleName::Taylor) => Some(Packed::Taylor(Parts::new(Taylor, self.block, time))),
+            _ => Some(Packed::Points(Parts::new(self.points(), self.block, time))),
         }
     }
 

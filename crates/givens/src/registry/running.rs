@@ -4,57 +4,69 @@ use super::choice::Choice;
 use super::dispatch::Job;
 use crate::Row;
 use crate::filter::{Fault, Gaussian, Over, StepError};
-use crate::model::{Observation, Sde, Transition};
+use crate::model::{AnyObservation, AnySde, AnyTransition, Observation, Sde, Transition};
 use crate::run::{Goal, Outcome, run_at};
 
 impl Choice {
     /// Runs a discrete method over a trajectory, `at` these times besides; see [`run_at()`]. A continuous one fails at the first row.
-    pub fn run<'a, M: Transition, H: Observation>(
+    pub fn run<'a, M: Transition + Sync, H: Observation + Sync>(
         &self,
         model: &M,
         sensors: &H,
-        rows: impl Iterator<Item = Row<'a>> + Clone,
+        rows: impl Iterator<Item = Row<'a>>,
         t0: f64,
         prior: &Gaussian,
         goal: Goal,
         at: &[f64],
     ) -> Outcome {
-        let span = Span { model, sensors, rows, t0, prior, goal, at };
+        let rows: Vec<Row> = rows.collect();
+        let (model, sensors) = (&AnyTransition(model), &AnyObservation(sensors));
+        self.run_any(Span { model, sensors, rows: &rows, t0, prior, goal, at })
+    }
+
+    /// Runs a continuous method over a trajectory, `at` these times besides; see [`run_at()`]. A discrete one fails at the first row.
+    pub fn run_continuous<'a, M: Sde + Sync, H: Observation + Sync>(
+        &self,
+        model: &M,
+        sensors: &H,
+        rows: impl Iterator<Item = Row<'a>>,
+        t0: f64,
+        prior: &Gaussian,
+        goal: Goal,
+        at: &[f64],
+    ) -> Outcome {
+        let rows: Vec<Row> = rows.collect();
+        let (model, sensors) = (&AnySde(model), &AnyObservation(sensors));
+        self.run_any_continuous(Span { model, sensors, rows: &rows, t0, prior, goal, at })
+    }
+
+    // not generic: every filter of run time is compiled here, once
+
+    fn run_any(&self, span: Span<AnyTransition>) -> Outcome {
         let refused = span.refused();
         self.discrete(span).unwrap_or_else(refused)
     }
 
-    /// Runs a continuous method over a trajectory, `at` these times besides; see [`run_at()`]. A discrete one fails at the first row.
-    pub fn run_continuous<'a, M: Sde, H: Observation>(
-        &self,
-        model: &M,
-        sensors: &H,
-        rows: impl Iterator<Item = Row<'a>> + Clone,
-        t0: f64,
-        prior: &Gaussian,
-        goal: Goal,
-        at: &[f64],
-    ) -> Outcome {
-        let span = Span { model, sensors, rows, t0, prior, goal, at };
+    fn run_any_continuous(&self, span: Span<AnySde>) -> Outcome {
         let refused = span.refused();
         self.continuous(span).unwrap_or_else(refused)
     }
 }
 
 /// What a method is run over.
-struct Span<'s, M, H, I> {
+struct Span<'s, M> {
     model: &'s M,
-    sensors: &'s H,
-    rows: I,
+    sensors: &'s AnyObservation<'s>,
+    rows: &'s [Row<'s>],
     t0: f64,
     prior: &'s Gaussian,
     goal: Goal,
     at: &'s [f64],
 }
 
-impl<M, H: Observation, I> Span<'_, M, H, I> {
+impl<M> Span<'_, M> {
     /// The outcome of a method that is not for this model.
-    fn refused(&self) -> impl FnOnce(Fault) -> Outcome + use<M, H, I> {
+    fn refused(&self) -> impl FnOnce(Fault) -> Outcome + use<M> {
         let (n, d, goal, time) = (self.prior.mean().len(), self.sensors.measures(), self.goal, self.t0);
         move |fault| {
             let mut outcome = Outcome::new(n, d, goal);
@@ -64,9 +76,10 @@ impl<M, H: Observation, I> Span<'_, M, H, I> {
     }
 }
 
-impl<'a, M, H: Observation, I: Iterator<Item = Row<'a>> + Clone> Job<M> for Span<'_, M, H, I> {
+impl<M> Job<M> for Span<'_, M> {
     type Done = Outcome;
     fn with<X: Over<M> + Send + Sync + 'static>(self, method: X) -> Outcome {
-        run_at(method, self.model, self.sensors, self.rows, self.t0, self.prior, self.goal, self.at)
+        let rows = self.rows.iter().copied();
+        run_at(method, self.model, self.sensors, rows, self.t0, self.prior, self.goal, self.at)
     }
 }

@@ -102,7 +102,8 @@ pub fn sample<'a, X: Over<M>, M, H: Observation>(
     let (n, d, count) = (prior.mean().len(), sensors.measures(), rows.clone().count());
     let mut outcome = Outcome::new(n, d, Goal::Interval);
     let between = Between::new(&[], Estimates::new(n, d, true));
-    let started = Recorder::start(method, model, sensors, t0, prior, &[], Goal::Interval, count, between, None);
+    let started =
+        Recorder::start(method, model, sensors, t0, prior, &[], Goal::Interval, count, between, None);
     let drawn = started.map_err(|error| (0, error)).and_then(|mut recorder| {
         recorder.forward(rows, &mut outcome);
         match outcome.failure {

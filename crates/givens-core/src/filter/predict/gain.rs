@@ -4,7 +4,7 @@ use crate::filter::backward::Backward;
 use crate::filter::error::{Fault, Matrix};
 use crate::filter::lanes::split;
 use crate::filter::memory::{put_columns, take};
-use crate::kernels::{dot, divide_lower, divide_lower_transposed, downdate, tria};
+use crate::kernels::{divide_lower, divide_lower_transposed, dot, downdate, tria};
 use crate::scalar::Real;
 
 /// Scalars of scratch of [`rotation`], for `stride` columns of D, E and noise.

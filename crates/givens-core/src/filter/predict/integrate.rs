@@ -10,7 +10,7 @@ use crate::filter::form::{Belief, Form};
 use crate::filter::lanes::lanes;
 use crate::filter::memory::{put_columns, take};
 use crate::filter::sizes::{ENDLESS, Sizes, fits};
-use crate::kernels::{dot, Health, copy_lower, downdate, solve_lower, tria};
+use crate::kernels::{Health, copy_lower, dot, downdate, solve_lower, tria};
 use crate::model::At;
 use crate::ode::{Integrator, Segment, Solver, Stop, System, Why, Work};
 use crate::rule::RuleError;

@@ -9,6 +9,7 @@ use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 /// N floats.
 #[derive(Clone, Copy)]
+#[repr(transparent)]
 pub struct Array<E, const N: usize>([E; N]);
 
 /// N truth values.

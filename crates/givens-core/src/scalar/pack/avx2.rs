@@ -5,7 +5,7 @@ use super::real::{assigning, elementary};
 use super::register::{apply, register, truths};
 use super::{LaneMask, MAX_WIDTH, Pack, padded};
 use crate::scalar::math::{self, Lanes};
-use crate::scalar::{Mask, Real};
+use crate::scalar::{Inside, Mask, Real};
 #[allow(clippy::wildcard_imports, reason = "a hundred names of instructions, all with their prefix")]
 use core::arch::x86_64::*;
 use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
@@ -19,7 +19,7 @@ fn count(by: u32) -> __m128i {
 
 register! {
     /// Four `f64`.
-    Avx2F64: 4 x f64 in __m256d, mask Avx2F64Mask,
+    Avx2F64: 4 x f64 in __m256d, mask Avx2F64Mask, needs "avx2,fma",
     load [_mm256_loadu_pd], store [_mm256_storeu_pd], splat [_mm256_set1_pd],
     pattern [|bits| _mm256_castsi256_pd(_mm256_set1_epi64x(bits.cast_signed()))],
     add [_mm256_add_pd], sub [_mm256_sub_pd], mul [_mm256_mul_pd], div [_mm256_div_pd], fused [_mm256_fmadd_pd], sqrt [_mm256_sqrt_pd],
@@ -45,7 +45,7 @@ truths! {
 
 register! {
     /// Eight `f32`.
-    Avx2F32: 8 x f32 in __m256, mask Avx2F32Mask,
+    Avx2F32: 8 x f32 in __m256, mask Avx2F32Mask, needs "avx2,fma",
     load [_mm256_loadu_ps], store [_mm256_storeu_ps], splat [_mm256_set1_ps],
     pattern [|bits| _mm256_castsi256_ps(_mm256_set1_epi32(bits as i32))],
     add [_mm256_add_ps], sub [_mm256_sub_ps], mul [_mm256_mul_ps], div [_mm256_div_ps], fused [_mm256_fmadd_ps], sqrt [_mm256_sqrt_ps],

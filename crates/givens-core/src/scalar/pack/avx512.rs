@@ -5,7 +5,7 @@ use super::real::{assigning, elementary};
 use super::register::{apply, register, truths};
 use super::{LaneMask, MAX_WIDTH, Pack, padded};
 use crate::scalar::math::{self, Lanes};
-use crate::scalar::{Mask, Real};
+use crate::scalar::{Inside, Mask, Real};
 #[allow(clippy::wildcard_imports, reason = "a hundred names of instructions, all with their prefix")]
 use core::arch::x86_64::*;
 use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
@@ -21,7 +21,7 @@ const DOWN: i32 = _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC;
 
 register! {
     /// Eight `f64`.
-    Avx512F64: 8 x f64 in __m512d, mask Avx512F64Mask,
+    Avx512F64: 8 x f64 in __m512d, mask Avx512F64Mask, needs "avx512f,avx512dq,avx512vl,avx2,fma",
     load [_mm512_loadu_pd], store [_mm512_storeu_pd], splat [_mm512_set1_pd],
     pattern [|bits| _mm512_castsi512_pd(_mm512_set1_epi64(bits.cast_signed()))],
     add [_mm512_add_pd], sub [_mm512_sub_pd], mul [_mm512_mul_pd], div [_mm512_div_pd], fused [_mm512_fmadd_pd], sqrt [_mm512_sqrt_pd],
@@ -41,7 +41,7 @@ truths! {
 
 register! {
     /// Sixteen `f32`.
-    Avx512F32: 16 x f32 in __m512, mask Avx512F32Mask,
+    Avx512F32: 16 x f32 in __m512, mask Avx512F32Mask, needs "avx512f,avx512dq,avx512vl,avx2,fma",
     load [_mm512_loadu_ps], store [_mm512_storeu_ps], splat [_mm512_set1_ps],
     pattern [|bits| _mm512_castsi512_ps(_mm512_set1_epi32(bits as i32))],
     add [_mm512_add_ps], sub [_mm512_sub_ps], mul [_mm512_mul_ps], div [_mm512_div_ps], fused [_mm512_fmadd_ps], sqrt [_mm512_sqrt_ps],

@@ -30,6 +30,21 @@ mod scalar;
 mod set;
 mod tracks;
 
+/// The pack of `f64` that models behind a pointer are compiled for, and its set: of vectors twice as wide, many machines
+/// do not get more.
+#[cfg(target_arch = "x86_64")]
+pub(super) type Narrow = avx2::Avx2F64;
+#[cfg(target_arch = "x86_64")]
+pub(super) const NARROW: InstructionSet = InstructionSet::Avx2;
+#[cfg(all(target_arch = "aarch64", target_feature = "neon"))]
+pub(super) type Narrow = neon::NeonF64;
+#[cfg(all(target_arch = "aarch64", target_feature = "neon"))]
+pub(super) const NARROW: InstructionSet = InstructionSet::Neon;
+#[cfg(not(any(target_arch = "x86_64", all(target_arch = "aarch64", target_feature = "neon"))))]
+pub(super) type Narrow = array::Array<f64, 4>;
+#[cfg(not(any(target_arch = "x86_64", all(target_arch = "aarch64", target_feature = "neon"))))]
+pub(super) const NARROW: InstructionSet = InstructionSet::Portable;
+
 pub use set::{InstructionSet, Job};
 pub use tracks::{gather, scatter};
 

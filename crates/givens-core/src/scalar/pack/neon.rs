@@ -5,14 +5,14 @@ use super::real::{assigning, elementary};
 use super::register::{apply, register, truths};
 use super::{LaneMask, MAX_WIDTH, Pack, padded};
 use crate::scalar::math::{self, Lanes};
-use crate::scalar::{Mask, Real};
+use crate::scalar::{Inside, Mask, Real};
 #[allow(clippy::wildcard_imports, reason = "a hundred names of instructions, all with their prefix")]
 use core::arch::aarch64::*;
 use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 register! {
     /// Two `f64`.
-    NeonF64: 2 x f64 in float64x2_t, mask NeonF64Mask,
+    NeonF64: 2 x f64 in float64x2_t, mask NeonF64Mask, needs "neon",
     load [vld1q_f64], store [vst1q_f64], splat [vdupq_n_f64], pattern [|bits| vreinterpretq_f64_u64(vdupq_n_u64(bits))],
     add [vaddq_f64], sub [vsubq_f64], mul [vmulq_f64], div [vdivq_f64], fused [|a, b, c| vfmaq_f64(c, a, b)], sqrt [vsqrtq_f64],
     floor [vrndmq_f64], lt [vcltq_f64], le [vcleq_f64], eq [vceqq_f64], blend [vbslq_f64],
@@ -33,7 +33,7 @@ truths! {
 
 register! {
     /// Four `f32`.
-    NeonF32: 4 x f32 in float32x4_t, mask NeonF32Mask,
+    NeonF32: 4 x f32 in float32x4_t, mask NeonF32Mask, needs "neon",
     load [vld1q_f32], store [vst1q_f32], splat [vdupq_n_f32], pattern [|bits| vreinterpretq_f32_u32(vdupq_n_u32(bits as u32))],
     add [vaddq_f32], sub [vsubq_f32], mul [vmulq_f32], div [vdivq_f32], fused [|a, b, c| vfmaq_f32(c, a, b)], sqrt [vsqrtq_f32],
     floor [vrndmq_f32], lt [vcltq_f32], le [vcleq_f32], eq [vceqq_f32], blend [vbslq_f32],

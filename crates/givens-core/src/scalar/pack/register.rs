@@ -25,7 +25,7 @@ macro_rules! apply {
 /// private and `InstructionSet::run` alone hands them out, on a machine that it has asked for the set.
 macro_rules! register {
     (
-        $(#[$doc:meta])* $pack:ident: $width:literal x $element:ident in $register:ty, mask $mask:ident,
+        $(#[$doc:meta])* $pack:ident: $width:literal x $element:ident in $register:ty, mask $mask:ident, needs $needs:literal,
         load $load:tt, store $store:tt, splat $splat:tt, pattern $pattern:tt,
         add $add:tt, sub $sub:tt, mul $mul:tt, div $div:tt, fused $fused:tt, sqrt $sqrt:tt,
         floor $floor:tt, lt $lt:tt, le $le:tt, eq $eq:tt, blend $blend:tt, negative $negative:tt,
@@ -51,6 +51,15 @@ macro_rules! register {
             type Mask = $mask;
             const EPSILON: f64 = $element::EPSILON as f64;
 
+            #[inline(always)]
+            fn within<W: Inside>(work: W) -> W::Output {
+                #[target_feature(enable = $needs)]
+                fn inside<W: Inside>(work: W) -> W::Output {
+                    work.go()
+                }
+                // SAFETY: the type exists only where its instruction set does.
+                unsafe { inside(work) }
+            }
             #[inline(always)]
             fn of(value: f64) -> Self {
                 Self::splat(value as $element)

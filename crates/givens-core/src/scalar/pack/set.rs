@@ -132,7 +132,10 @@ macro_rules! dispatch {
             }
 
             #[inline(always)]
-            unsafe fn dispatch_registers<J: Job<$float>>(set: InstructionSet, job: J) -> Result<J::Output, J> {
+            unsafe fn dispatch_registers<J: Job<$float>>(
+                set: InstructionSet,
+                job: J,
+            ) -> Result<J::Output, J> {
                 #[cfg(target_arch = "x86_64")]
                 #[target_feature(enable = "avx2,fma")]
                 fn avx2<J: Job<$float>>(job: J) -> J::Output {

@@ -6,11 +6,11 @@
 //! line: the least time per row, then the last mean.
 #![allow(clippy::print_stdout, reason = "it is its answer")]
 
+use core::error::Error;
+use core::hint::black_box;
 use givens::Data;
 use givens::filter::{Gaussian, SrCdCkf};
 use givens::model::zoo::{Radar3d, Turn3d};
-use std::error::Error;
-use std::hint::black_box;
 use std::io::stdin;
 use std::time::Instant;
 

@@ -11,7 +11,7 @@ from givens._arrays import shape_error
 from givens._dynamics import Dynamics, begin, noise_request, parameters_of, read_jacobian
 from givens._names import ordered
 from givens._part import Part, Request, is_function
-from givens._trace.arguments import second_position
+from givens._trace.arguments import reads_state
 
 __all__ = ["Sde"]
 
@@ -139,7 +139,7 @@ def _diffusion(given: Any, states: tuple[str, ...], u: tuple[str, ...], common: 
     n = len(states)
     if isinstance(given, Mapping):
         given = [0.0 if entry is None else entry for entry in ordered("diffusion", given, states, "state")]
-    state_like = is_function(given) and second_position("diffusion", given) not in (None, "u")
+    state_like = is_function(given) and reads_state("diffusion", given)
     part = noise_request("diffusion", ("t", "x") if state_like else ("t",), u, common).read(given)
     shape = part.shape
     if shape == () and n == 1:

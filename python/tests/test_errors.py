@@ -81,7 +81,7 @@ CASES = [
     (
         lambda: gv.Sde(lambda t, x, u: x, diffusion=[0, 0.1], state=S),
         gv.InputError,
-        "`drift`: <lambda> takes (t, x, u), but it is given (t, x)\n  help: write def drift(t, x, *, parameter=1.0); controls are named in controls=[…]",
+        '`drift`: <lambda> takes (t, x, u), but the model has no controls\n  help: name them with the model: controls=["thrust"]; a parameter has a default: *, u=1.0',
     ),
     (
         lambda: gv.Sde(lambda t, x, *, k: x, diffusion=[0, 0.1], state=S),

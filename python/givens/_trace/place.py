@@ -6,10 +6,11 @@ import os
 import sys
 from dataclasses import dataclass
 from types import CodeType, FrameType, TracebackType
+from typing import Any
 
 import numpy as np
 
-__all__ = ["Place", "here", "of_function", "of_traceback"]
+__all__ = ["Place", "here", "locals_at", "of_function", "of_traceback"]
 
 _OURS = (os.path.dirname(__file__), os.path.dirname(np.__file__))
 
@@ -48,6 +49,16 @@ def of_traceback(traceback: TracebackType | None) -> Place:
         code = traceback.tb_frame.f_code
         if not code.co_filename.startswith(_OURS):
             found = _place(code, traceback.tb_lineno)
+        traceback = traceback.tb_next
+    return found
+
+
+def locals_at(traceback: TracebackType | None) -> dict[str, Any]:
+    """The variables at that line."""
+    found: dict[str, Any] = {}
+    while traceback is not None:
+        if not traceback.tb_frame.f_code.co_filename.startswith(_OURS):
+            found = traceback.tb_frame.f_locals
         traceback = traceback.tb_next
     return found
 

@@ -101,14 +101,26 @@ class Part:
     @property
     def is_number(self) -> bool:
         """Whether it is the same everywhere."""
-        return self.traced is not None and not self.traced.tape.inputs(self.traced.nodes)
+        return self.traced is not None and not self._inputs
 
-    def value(self) -> Array:
-        """Its numbers, if it is the same everywhere."""
+    @property
+    def is_fixed(self) -> bool:
+        """Whether it is the same everywhere but for its parameters."""
+        return self.traced is not None and all(kind == "parameter" for kind, _ in self._inputs)
+
+    @property
+    def _inputs(self) -> set[tuple[str, int]]:
+        assert self.traced is not None
+        return self.traced.tape.inputs(self.traced.nodes)
+
+    def value(self, t: float = 0.0, dt: float = 0.0, u: float = 0.0) -> Array:
+        """Its numbers at a moment, all controls of one value; of a part that does not depend on the state."""
         assert self.traced is not None
         empty, graph = np.empty(0), Graph()
+        controls = np.full(1 + max((at for kind, at in self._inputs if kind == "control"), default=-1), u)
         nodes = self.traced.tape.lay_into(graph, self.traced.nodes)
-        return graph.evaluate(nodes, empty, 0.0, 0.0, empty, empty).reshape(self.traced.shape)
+        found = graph.evaluate(nodes, empty, t, dt, controls, self.traced.arguments.values)
+        return found.reshape(self.traced.shape)
 
     @property
     def nodes(self) -> tuple[int, ...]:

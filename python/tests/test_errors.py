@@ -267,7 +267,7 @@ CASES = [
     (
         lambda: gv.Gaussian([0, 1], [[1, 2], [2, 1]]),
         gv.InputError,
-        "`cov` is no covariance: its pivot 1 is negative\n  help: variances are from 0 up and correlations from -1 to 1; were standard deviations meant, write std=…",
+        "`cov` is not positive semidefinite at pivot 2\n  help: variances are from 0 up and correlations from -1 to 1; were standard deviations meant, write std=…",
     ),
     (
         lambda: gv.Gaussian([0, 1], [[1, 0.2], [0.1, 1]]),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -15,6 +15,7 @@ from givens._native import Function, Graph
 from givens._symbolic import is_symbolic, of_sympy
 from givens._trace.arguments import Arguments, read_arguments
 from givens._trace.place import of_function
+from givens._trace.steep import Steep
 from givens._trace.tape import Tape
 from givens._trace.traced import Sizes, Traced
 from givens.errors import InputError, TraceError
@@ -62,19 +63,20 @@ class Request:
         if self.may_call and (is_compiled(given) or not self.trace):
             return Part(self.argument, called=called(self, given))
         # what knows symbols is a third of the package, and a model file needs none of it
-        from givens._trace.check import compare
+        from givens._trace.check import compare, compare_slopes
         from givens._trace.tracer import trace
 
         arguments = read_arguments(self.argument, given, self.required, self.optional, self.parameters)
         try:
             traced = trace(given, arguments, self.sizes, self.names)
             compare(given, traced, self.sizes, self.names, self.check_at)
+            steep = compare_slopes(given, traced, self.sizes, self.names, self.check_at)
         except TraceError as error:
             error.argument = self.argument
             if not self.may_call and error.remedy is not None:
                 error.remedy = error.remedy.replace(", or pass trace=False", "").replace("; or pass trace=False", "")
             raise
-        return Part(self.argument, traced, origin=of_function(given).function)
+        return Part(self.argument, traced, origin=of_function(given).function, steep=steep)
 
 
 @dataclass(frozen=True)
@@ -85,6 +87,8 @@ class Part:
     traced: Traced | None = None
     called: Called | None = None
     origin: str | None = None
+    #: What to say to those who take its derivatives, if they are not the function's.
+    steep: Steep | None = None
 
     @property
     def shape(self) -> tuple[int, ...] | None:
@@ -107,6 +111,11 @@ class Part:
     def is_fixed(self) -> bool:
         """Whether it is the same everywhere but for its parameters."""
         return self.traced is not None and all(kind == "parameter" for kind, _ in self._inputs)
+
+    @property
+    def reads_state(self) -> bool:
+        """Whether it depends on the state, as far as its expressions tell."""
+        return self.traced is not None and any(kind == "state" for kind, _ in self._inputs)
 
     @property
     def _inputs(self) -> set[tuple[str, int]]:
@@ -140,7 +149,7 @@ class Part:
         """With other results, which are instructions of the same tape."""
         assert self.traced is not None
         traced = Traced(self.traced.tape, tuple(nodes), shape, self.traced.arguments)
-        return Part(self.argument, traced, origin=self.origin)
+        return replace(self, traced=traced)
 
     def into(self, graph: Graph, places: Mapping[str, slice]) -> list[int] | Function:
         """As the native half takes it: nodes of the graph, or a function; parameters stand in these places."""

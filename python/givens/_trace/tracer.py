@@ -37,10 +37,11 @@ def trace(function: Callable[..., Any], arguments: Arguments, sizes: Sizes, name
     kept = stores.polluted()
     if kept is None:
         return traced
+    place = stores.line_of(kept, lambda: _called(function, arguments, sizes, Tape(), names))
     raise refuse(
-        f"it keeps a value that is not known yet in `{kept}`",
+        f"it keeps a value that is not known yet in `{kept.name}`",
         "keep nothing between calls: fill a cache before, compute it outside, or pass trace=False",
-        of_function(function),
+        place or of_function(function),
     )
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import sys
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
@@ -56,7 +57,8 @@ def of_sympy(
                 component=str(symbol),
                 remedy=f"did you mean `{close[0]}`?" if close else f"write parameters={{'{symbol}': …}}",
             )
-    function = sympy.lambdify(free, expressions, modules="numpy")
+    # NumPy has no error function, `math` has
+    function = sympy.lambdify(free, expressions, modules=[{"erf": math.erf, "erfc": math.erfc}, "numpy"])
     names = [str(symbol) for symbol in free]
     used = [name for name in names if name in parameters]
 

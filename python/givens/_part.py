@@ -58,8 +58,17 @@ class Request:
             if "x" in self.required:
                 said = f"`{self.argument}` is not a function: {given!r}"
                 remedy = f"write def {self.argument}({', '.join(self.required)}): return […]"
+                # no function stands below
+                if isinstance(given, int) and given >= 4096:
+                    remedy += "; of an address, ctypes.CFUNCTYPE(None, …)(address) makes a function"
                 raise InputError(said, argument=self.argument, remedy=remedy)
             return Part(self.argument, _numbers(self.argument, given))
+        if is_compiled(given) and not self.may_call:
+            raise InputError(
+                f"`{self.argument}` is a function of C, and can only be one that is traced, or numbers",
+                argument=self.argument,
+                remedy=f"write def {self.argument}({', '.join(self.required)}): return […]",
+            )
         if self.may_call and (is_compiled(given) or not self.trace):
             return Part(self.argument, called=called(self, given))
         # what knows symbols is a third of the package, and a model file needs none of it

@@ -541,7 +541,7 @@ CASES = [
     (
         lambda: gv.Filter(MODEL, LENGTH, prior=PRIOR, t0=0.0).predict(-1.0),
         gv.StepError,
-        "t = 0: cannot predict back to t = -1",
+        "t = 0: cannot predict back to t = -1\n  help: give times in order, or go on from a copy() made before that time",
     ),
     (
         lambda: gv.Filter(MODEL, LENGTH, prior=PRIOR, t0=0.0).set_controls([1]),

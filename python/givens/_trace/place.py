@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import CodeType, FrameType, TracebackType
 from typing import Any
 
@@ -12,7 +12,12 @@ import numpy as np
 
 __all__ = ["Place", "here", "is_users", "locals_at", "of_function", "of_traceback", "place_of"]
 
-_OURS = (os.path.dirname(__file__), os.path.dirname(np.__file__))
+#: This package, NumPy, and what SymPy makes of expressions.
+_OURS = (
+    os.path.join(os.path.dirname(os.path.dirname(__file__)), ""),
+    os.path.join(os.path.dirname(np.__file__), ""),
+    "<lambdifygenerated",
+)
 
 
 @dataclass(frozen=True)
@@ -69,8 +74,10 @@ def locals_at(traceback: TracebackType | None) -> dict[str, Any]:
 
 
 def of_function(function: object) -> Place:
-    """The line where a function begins."""
+    """The line where a function begins; of one that this package made, the line at work."""
     code = getattr(getattr(function, "__func__", function), "__code__", None)
+    if isinstance(code, CodeType) and not is_users(code):
+        return replace(here(), function=_name(code))
     if isinstance(code, CodeType):
         return Place(_name(code), code.co_filename, code.co_firstlineno, None)
     return Place(getattr(function, "__qualname__", None) or type(function).__name__)

@@ -53,7 +53,8 @@ class Called:
         """As the native half takes it."""
         if is_compiled(self.function):
             address = address_of(self.argument, self.function, len(self.positions) + 2)
-            return Function.address(address, self.function, step="dt" in self.positions)
+            own = [k for name in self.parameters for k in range(places[name].start, places[name].stop)]
+            return Function.address(address, self.function, step="dt" in self.positions, parameters=own)
         return Function.callable(_Caller(self, {name: places[name] for name in self.parameters}))
 
 
@@ -124,6 +125,12 @@ def called(request: Request, function: Callable[..., Any]) -> Called:
     """Reads the call of such a function."""
     if is_compiled(function):
         address_of(request.argument, function, len(request.required) + 2)
+        if request.vectorized:
+            raise InputError(
+                f"`vectorized` is given, but `{request.argument}` is a function of C, which takes one point",
+                argument="vectorized",
+                remedy="leave it out",
+            )
         given = {name: parameter_value(request.argument, name, v) for name, v in request.parameters.items()}
         return Called(request.argument, function, request.required, given, None, request.names, many=False)
     arguments = read_arguments(request.argument, function, request.required, request.optional, request.parameters)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -13,11 +13,12 @@ from givens._arrays import Array
 from givens._called import slots
 from givens._dynamics import Dynamics
 from givens._native import Graph
+from givens._part import Part
 from givens.errors import InputError
 from givens.model_file import ModelFile
 from givens.sensor import Sensor
 
-__all__ = ["Joined", "join", "named_sensor", "sensors_of"]
+__all__ = ["Joined", "join", "named_sensor", "refuse_steep", "refuse_steep_paths", "sensors_of"]
 
 #: Joints of one model that are kept.
 _KEPT = 16
@@ -35,6 +36,9 @@ class Joined:
     measures: tuple[str, ...]
     #: For each sensor whose noise comes with the rows, how many numbers a row has: of `std` d, of `cov` d².
     noise: dict[str, tuple[int, ...]]
+    #: Functions of motion, and those of the sensors, whose expressions do not have their derivatives.
+    steep_motion: Part | None = None
+    steep_measures: Part | None = None
 
     @property
     def kind(self) -> Any:
@@ -145,7 +149,13 @@ def _made(model: Dynamics, sensors: Sequence[Sensor], noise: Mapping[str, tuple[
             graph, model.state, controls, values, parts["f"], parts["noise_cov"], step, stacked, jacobian=jacobian
         )
     measures = tuple(name for sensor in sensors for name in sensor.measures)
-    return Joined(native, model.state, model.controls, blocks, measures, dict(noise))
+    motion = _steep(model._parts.values())
+    measured = _steep(sensor._traced(model.state, model.controls)["h"] for sensor in sensors)
+    return Joined(native, model.state, model.controls, blocks, measures, dict(noise), motion, measured)
+
+
+def _steep(parts: Iterable[Part]) -> Part | None:
+    return next((part for part in parts if part.steep is not None), None)
 
 
 def _sensor(
@@ -172,6 +182,29 @@ def _sensor(
     if "jacobian" in parts:
         described["jacobian"] = parts["jacobian"].into(graph, places)
     return described
+
+
+def refuse_steep(joined: Joined, choice: _native.Choice) -> None:
+    """Refuses a method that takes derivatives which the expressions do not have."""
+    parts = choice.parts(len(joined.states))
+    all_of_them = parts["rule"] == "taylor"
+    of_motion = all_of_them or parts["time_update"] == "ito-taylor" or parts.get("solver") == "rodas4"
+    continuous = joined.kind == "continuous"
+    for taken, part, instead in (
+        (of_motion, joined.steep_motion, "sr-cd-ckf2" if continuous else "sr-ckf"),
+        (all_of_them, joined.steep_measures, "sr-cd-ckf" if continuous else "sr-ckf"),
+    ):
+        if taken and part is not None and part.steep is not None:
+            raise part.steep.error(part.argument, f"`{choice.name}`", f'method="{instead}"')
+
+
+def refuse_steep_paths(model: Any, joined: Joined) -> None:
+    """Refuses to draw paths by an expansion of a drift whose derivatives the expressions do not have."""
+    part = joined.steep_motion
+    # where the noise depends on the state, paths are drawn without derivatives
+    expanded = isinstance(model, Dynamics) and model.kind == "continuous" and not model._parts["diffusion"].reads_state
+    if expanded and part is not None and part.steep is not None:
+        raise part.steep.error(part.argument, "`simulate`", "trace=False")
 
 
 def named_sensor(joined: Joined, argument: str, name: object) -> slice:

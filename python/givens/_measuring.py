@@ -10,13 +10,13 @@ import numpy as np
 
 from givens._arrays import Array, numbers, shape_error, vector
 from givens._compiled import is_compiled
+from givens._covariance import check_covariance
 from givens._dynamics import parameters_of
 from givens._names import known_name, names_of, ordered
 from givens._part import Request, is_function
 from givens._symbolic import is_symbolic
 from givens._trace.arguments import parameter_value, read_arguments
 from givens.errors import InputError
-from givens.transition import check_symmetric
 
 __all__ = ["near", "parameters", "periods", "spread"]
 
@@ -46,7 +46,7 @@ def spread(noise: str, given: Any, columns: tuple[str, ...]) -> Any:
             remedy="standard deviations are finite, from 0 up" if noise == "std" else "give finite numbers",
         )
     if noise == "cov":
-        check_symmetric("cov", Request("cov", ()).read(array))
+        check_covariance("cov", Request("cov", ()).read(array), "measure", columns)
     return array
 
 

@@ -170,12 +170,15 @@ class Function:
         """
 
     @staticmethod
-    def address(address: int, owner: object, *, step: bool = False) -> Function:
+    def address(
+        address: int, owner: object, *, step: bool = False, parameters: Sequence[int] | None = None
+    ) -> Function:
         """A function of C, such as numba's `cfunc`, at an address.
 
         ``void f(double t, const double *x, const double *p, double *out)``, with `step`
-        ``void f(double t, double dt, const double *x, const double *p, double *out)``. The controls stand behind the
-        parameters. It is called from any thread. `owner` is kept alive as long as the function may be called. A wrong
+        ``void f(double t, double dt, const double *x, const double *p, double *out)``. `p` holds the
+        `parameters` of the model, by their places, or all of them, and the controls behind them. It is called from any
+        thread. `owner` is kept alive as long as the function may be called. A wrong
         address, or a function that reads or writes beyond its arrays, ends the program.
         """
 

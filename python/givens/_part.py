@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -15,6 +15,7 @@ from givens._native import Function, Graph
 from givens._symbolic import is_symbolic, of_sympy
 from givens._trace.arguments import Arguments, read_arguments
 from givens._trace.place import of_function
+from givens._trace.steep import Steep
 from givens._trace.tape import Tape
 from givens._trace.traced import Sizes, Traced
 from givens.errors import InputError, TraceError
@@ -57,24 +58,34 @@ class Request:
             if "x" in self.required:
                 said = f"`{self.argument}` is not a function: {given!r}"
                 remedy = f"write def {self.argument}({', '.join(self.required)}): return […]"
+                # no function stands below
+                if isinstance(given, int) and given >= 4096:
+                    remedy += "; of an address, ctypes.CFUNCTYPE(None, …)(address) makes a function"
                 raise InputError(said, argument=self.argument, remedy=remedy)
             return Part(self.argument, _numbers(self.argument, given))
+        if is_compiled(given) and not self.may_call:
+            raise InputError(
+                f"`{self.argument}` is a function of C, and can only be one that is traced, or numbers",
+                argument=self.argument,
+                remedy=f"write def {self.argument}({', '.join(self.required)}): return […]",
+            )
         if self.may_call and (is_compiled(given) or not self.trace):
             return Part(self.argument, called=called(self, given))
         # what knows symbols is a third of the package, and a model file needs none of it
-        from givens._trace.check import compare
+        from givens._trace.check import compare, compare_slopes
         from givens._trace.tracer import trace
 
         arguments = read_arguments(self.argument, given, self.required, self.optional, self.parameters)
         try:
             traced = trace(given, arguments, self.sizes, self.names)
             compare(given, traced, self.sizes, self.names, self.check_at)
+            steep = compare_slopes(given, traced, self.sizes, self.names, self.check_at)
         except TraceError as error:
             error.argument = self.argument
             if not self.may_call and error.remedy is not None:
                 error.remedy = error.remedy.replace(", or pass trace=False", "").replace("; or pass trace=False", "")
             raise
-        return Part(self.argument, traced, origin=of_function(given).function)
+        return Part(self.argument, traced, origin=of_function(given).function, steep=steep)
 
 
 @dataclass(frozen=True)
@@ -85,6 +96,8 @@ class Part:
     traced: Traced | None = None
     called: Called | None = None
     origin: str | None = None
+    #: What to say to those who take its derivatives, if they are not the function's.
+    steep: Steep | None = None
 
     @property
     def shape(self) -> tuple[int, ...] | None:
@@ -101,14 +114,31 @@ class Part:
     @property
     def is_number(self) -> bool:
         """Whether it is the same everywhere."""
-        return self.traced is not None and not self.traced.tape.inputs(self.traced.nodes)
+        return self.traced is not None and not self._inputs
 
-    def value(self) -> Array:
-        """Its numbers, if it is the same everywhere."""
+    @property
+    def is_fixed(self) -> bool:
+        """Whether it is the same everywhere but for its parameters."""
+        return self.traced is not None and all(kind == "parameter" for kind, _ in self._inputs)
+
+    @property
+    def reads_state(self) -> bool:
+        """Whether it depends on the state, as far as its expressions tell."""
+        return self.traced is not None and any(kind == "state" for kind, _ in self._inputs)
+
+    @property
+    def _inputs(self) -> set[tuple[str, int]]:
+        assert self.traced is not None
+        return self.traced.tape.inputs(self.traced.nodes)
+
+    def value(self, t: float = 0.0, dt: float = 0.0, u: float = 0.0) -> Array:
+        """Its numbers at a moment, all controls of one value; of a part that does not depend on the state."""
         assert self.traced is not None
         empty, graph = np.empty(0), Graph()
+        controls = np.full(1 + max((at for kind, at in self._inputs if kind == "control"), default=-1), u)
         nodes = self.traced.tape.lay_into(graph, self.traced.nodes)
-        return graph.evaluate(nodes, empty, 0.0, 0.0, empty, empty).reshape(self.traced.shape)
+        found = graph.evaluate(nodes, empty, t, dt, controls, self.traced.arguments.values)
+        return found.reshape(self.traced.shape)
 
     @property
     def nodes(self) -> tuple[int, ...]:
@@ -128,7 +158,7 @@ class Part:
         """With other results, which are instructions of the same tape."""
         assert self.traced is not None
         traced = Traced(self.traced.tape, tuple(nodes), shape, self.traced.arguments)
-        return Part(self.argument, traced, origin=self.origin)
+        return replace(self, traced=traced)
 
     def into(self, graph: Graph, places: Mapping[str, slice]) -> list[int] | Function:
         """As the native half takes it: nodes of the graph, or a function; parameters stand in these places."""

@@ -14,7 +14,7 @@ from givens._arrays import Array
 from givens._clock import Clock, Times, clock_of
 from givens._dynamics import Parametric
 from givens._given import Given, each_of, parameters_by_run, split
-from givens._join import Joined, join, sensors_of
+from givens._join import Joined, join, refuse_steep, sensors_of
 from givens._rows import controls_of, measured, noise_shapes, with_noise
 from givens._scalars import mapping, text
 from givens._tables import is_table, rows_by_track
@@ -144,6 +144,7 @@ def choose(model: Any, joined: Joined, method: str | None, options: Mapping[str,
         method = method or model.method
     choice = _native.Choice(method, dict(options), joined.kind)
     choice.check(joined.native)
+    refuse_steep(joined, choice)
     return choice
 
 

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from givens._arrays import Array, dimensions, numbers, shape_error
+from givens._covariance import check_rows
 from givens._frames import numbers_by_name
 from givens._join import Joined, named_sensor
 from givens._names import known_name, listed
@@ -122,5 +123,7 @@ def with_noise(joined: Joined, u: Array | None, noise: Any, z: Array) -> Array |
                 component=name,
                 remedy="standard deviations are finite, from 0 up" if len(shape) == 1 else "give finite numbers",
             )
+        if len(shape) == 2:
+            check_rows(argument, name, flat.reshape(rows, *shape), measures)
         stacked.append(flat)
     return np.concatenate(stacked, axis=1)

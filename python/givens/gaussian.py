@@ -175,7 +175,7 @@ def _covariance(cov: Any, n: int) -> Array:
     failed = int(lower_factor(matrix)[1])
     if failed >= 0:
         raise InputError(
-            f"`cov` is no covariance: its pivot {failed} is negative",
+            f"`cov` is not positive semidefinite at pivot {failed + 1}",
             argument="cov",
             remedy="variances are from 0 up and correlations from -1 to 1; were standard deviations meant, write std=…",
         )

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from typing import Any, Self
 
 import numpy as np
@@ -12,7 +13,7 @@ from givens._arrays import Array, numbers, shape_error, vector
 from givens._clock import Clock, clock_of
 from givens._join import Joined, join, named_sensor
 from givens._plan import choose, read_prior
-from givens.errors import InputError
+from givens.errors import InputError, StepError
 from givens.gaussian import Gaussian
 
 __all__ = ["Filter"]
@@ -84,7 +85,8 @@ class Filter:
         StepError
             For a step that fails; the belief stays as it was.
         """
-        self._native.predict(self._clock.moment("t", t))
+        with self._dated():
+            self._native.predict(self._clock.moment("t", t))
 
     def update(self, z: Any, sensor: str | None = None) -> None:
         """Teaches the belief a measurement made at `time`.
@@ -101,7 +103,18 @@ class Filter:
         StepError
             For a step that fails; the belief stays as it was.
         """
-        self._native.update(self._stacked(z, sensor))
+        with self._dated():
+            self._native.update(self._stacked(z, sensor))
+
+    @contextmanager
+    def _dated(self) -> Iterator[None]:
+        """Says what the seconds in an error are counted from, if they are counted from a date."""
+        try:
+            yield
+        except StepError as error:
+            if self._clock.origin is not None:
+                error.add_note(f"t is in seconds since {self._clock.origin}")
+            raise
 
     def _stacked(self, z: Any, sensor: str | None) -> Array:
         names = self._joined.measures

@@ -8,10 +8,12 @@ from typing import Any
 import numpy.typing as npt
 
 from givens._arrays import shape_error
+from givens._compiled import is_compiled
 from givens._dynamics import Dynamics, begin, noise_request, parameters_of, read_jacobian
 from givens._names import ordered
-from givens._part import Part, Request, is_function
-from givens._trace.arguments import second_position
+from givens._part import Part, Request
+from givens._symbolic import is_symbolic, symbols_in
+from givens._trace.arguments import reads_state
 
 __all__ = ["Sde"]
 
@@ -139,7 +141,10 @@ def _diffusion(given: Any, states: tuple[str, ...], u: tuple[str, ...], common: 
     n = len(states)
     if isinstance(given, Mapping):
         given = [0.0 if entry is None else entry for entry in ordered("diffusion", given, states, "state")]
-    state_like = is_function(given) and second_position("diffusion", given) not in (None, "u")
+    if is_symbolic(given):
+        state_like = not symbols_in(given).isdisjoint(states)
+    else:
+        state_like = callable(given) and not is_compiled(given) and reads_state("diffusion", given)
     part = noise_request("diffusion", ("t", "x") if state_like else ("t",), u, common).read(given)
     shape = part.shape
     if shape == () and n == 1:

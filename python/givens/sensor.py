@@ -11,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from givens._arrays import shape_error
+from givens._covariance import check_covariance, check_deviations
 from givens._dynamics import Parametric, called_at_once, noise_request, read_jacobian
 from givens._measuring import near, periods, spread
 from givens._measuring import parameters as parameters_known
@@ -168,11 +169,15 @@ class Sensor(Parametric):
         noise, d = self._noise, len(self.measures)
         part = noise_request(noise, ("t",), u, common).read(self._given[noise])
         wanted = (d,) if noise == "std" else (d, d)
-        if part.shape == wanted:
-            return part
         if d == 1 and part.shape in ((), (1,), (1, 1)):
-            return part.reshaped(part.nodes, wanted)
-        raise shape_error(noise, part.shape or (), f"{wanted} for the measures {', '.join(self.measures)}")
+            part = part.reshaped(part.nodes, wanted)
+        if part.shape != wanted:
+            raise shape_error(noise, part.shape or (), f"{wanted} for the measures {', '.join(self.measures)}")
+        if noise == "std":
+            check_deviations(noise, part, self.measures)
+        else:
+            check_covariance(noise, part, "measure", self.measures)
+        return part
 
     def __eq__(self, other: object) -> bool:
         return self._key() == other._key() if isinstance(other, Sensor) else NotImplemented

@@ -11,7 +11,7 @@ import numpy as np
 from givens import _native
 from givens._arrays import Array
 from givens._clock import clock_of
-from givens._join import join
+from givens._join import join, refuse_steep_paths
 from givens._plan import read_prior, with_parameters
 from givens._rows import controls_of, noise_shapes, with_noise
 from givens._scalars import LAST_COUNT, mapping, seed_of, threads_of, whole
@@ -95,6 +95,7 @@ def simulate(
     plain = join(model, sensors)
     widths = {name: place.stop - place.start for name, place in plain.sensors.items()}
     joined = join(model, sensors, noise_shapes(noise, widths)) if noise is not None else plain
+    refuse_steep_paths(model, joined)
     clock = clock_of(t, t0)
     start = None if t0 is None else clock.moment("t0", t0)
     times = clock.times("t", t)

@@ -7,12 +7,11 @@ from typing import Any
 
 import numpy.typing as npt
 
-from givens._arrays import numbers, shape_error
+from givens._arrays import shape_error
+from givens._covariance import check_covariance
 from givens._dynamics import Dynamics, begin, noise_request, parameters_of, read_jacobian
-from givens._factor import first_asymmetry
 from givens._part import Part, Request
 from givens._scalars import positive
-from givens.errors import InputError
 from givens.sde import check_length
 
 __all__ = ["Transition"]
@@ -80,7 +79,7 @@ class Transition(Dynamics):
             step = positive("step", step, "a step is longer than 0")
         moves = Request("f", ("t", "dt", "x"), u, states, **common).read(f)
         check_length(moves, states)
-        parts = {"f": moves, "noise_cov": _noise(noise_cov, states, u, common)}
+        parts = {"f": moves, "noise_cov": _noise(noise_cov, states, u, common, step)}
         self._put(
             state=states,
             controls=common["controls"],
@@ -109,27 +108,13 @@ class Transition(Dynamics):
         ]
 
 
-def _noise(given: Any, states: tuple[str, ...], u: tuple[str, ...], common: dict[str, Any]) -> Part:
+def _noise(given: Any, states: tuple[str, ...], u: tuple[str, ...], common: dict[str, Any], step: float | None) -> Part:
     n = len(states)
     part = noise_request("noise_cov", ("t", "dt"), u, common).read(given)
     if n == 1 and part.shape in ((), (1,)):
-        return part.reshaped(part.nodes, (1, 1))
+        part = part.reshaped(part.nodes, (1, 1))
     if part.shape != (n, n):
         remedy = "noise_cov=np.diag(…) makes one of variances" if part.shape == (n,) else None
         raise shape_error("noise_cov", part.shape or (), f"({n}, {n})", remedy)
-    if part.is_number:
-        check_symmetric("noise_cov", part)
+    check_covariance("noise_cov", part, "state", states, step)
     return part
-
-
-def check_symmetric(argument: str, part: Part) -> None:
-    """Refuses numbers that are not symmetric; whether they are a covariance is found out where they are used."""
-    matrix = numbers(argument, part.value())
-    apart = first_asymmetry(matrix)
-    if apart is not None:
-        i, j = apart
-        raise InputError(
-            f"`{argument}` is not symmetric: {matrix[i, j]} at [{i}, {j}], {matrix[j, i]} at [{j}, {i}]",
-            argument=argument,
-            remedy="give a symmetric matrix, such as (Q + Q.T) / 2 if they differ by rounding",
-        )

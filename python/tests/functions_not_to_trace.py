@@ -21,6 +21,7 @@ TAKES = "write y = np.array(y) before: what np.array, np.zeros and their kin mak
 KEEPS = "keep nothing between calls: fill a cache before, compute it outside, or pass trace=False"
 ASSIGN = "assign the result: y[:] = …"
 CACHE = {}
+FIELD = {}
 LOG = []
 
 
@@ -304,20 +305,40 @@ def failing_everywhere(t, x):
     return [math.sqrt(-(x[0] ** 2) - 1), 0, 0]
 
 
-@refused("it keeps a value that is not known yet in `CACHE`", KEEPS, line=0)
+@refused("it keeps a value that is not known yet in `CACHE`", KEEPS, line=3)
 def a_filled_cache(t, x):
     if "A" not in CACHE:
         CACHE["A"] = np.eye(3) * 0.9
     return CACHE["A"] @ x
 
 
-@refused("it keeps a value that is not known yet in `LOG`", KEEPS, line=0)
+@refused("it keeps a value that is not known yet in `LOG`", KEEPS)
 def a_log(t, x):
     LOG.append(x)
     return x
 
 
-@refused("it keeps a value that is not known yet in `store`", KEEPS, line=0)
+def halved(value):
+    return value / 2
+
+
+@refused("it keeps a value that is not known yet in `FIELD`", KEEPS, line=3)
+def an_element(t, x):
+    y = np.sin(x) + halved(1.0)
+    FIELD["a"] = [t, y[0]]
+    y = y + 1
+    return y
+
+
+@refused("it keeps a value that is not known yet in `CACHE`", KEEPS, line=4)
+def a_table_after_a_helper(t, x):
+    values = [halved(v) for v in x]
+    total = sum(values)
+    CACHE[0] = halved(total); y = halved(total)  # noqa: E702
+    return [y, *values[1:]]
+
+
+@refused("it keeps a value that is not known yet in `store`", KEEPS)
 def a_default_that_is_filled(t, x, store=[]):  # noqa: B006
     store.append({"x": x})
     return x

@@ -81,7 +81,7 @@ CASES = [
     (
         lambda: gv.Sde(lambda t, x, u: x, diffusion=[0, 0.1], state=S),
         gv.InputError,
-        "`drift`: <lambda> takes (t, x, u), but it is given (t, x)\n  help: write def drift(t, x, *, parameter=1.0); controls are named in controls=[…]",
+        '`drift`: <lambda> takes (t, x, u), but the model has no controls\n  help: name them with the model: controls=["thrust"]; a parameter has a default: *, u=1.0',
     ),
     (
         lambda: gv.Sde(lambda t, x, *, k: x, diffusion=[0, 0.1], state=S),
@@ -267,7 +267,7 @@ CASES = [
     (
         lambda: gv.Gaussian([0, 1], [[1, 2], [2, 1]]),
         gv.InputError,
-        "`cov` is no covariance: its pivot 1 is negative\n  help: variances are from 0 up and correlations from -1 to 1; were standard deviations meant, write std=…",
+        "`cov` is not positive semidefinite at pivot 2\n  help: variances are from 0 up and correlations from -1 to 1; were standard deviations meant, write std=…",
     ),
     (
         lambda: gv.Gaussian([0, 1], [[1, 0.2], [0.1, 1]]),
@@ -541,7 +541,7 @@ CASES = [
     (
         lambda: gv.Filter(MODEL, LENGTH, prior=PRIOR, t0=0.0).predict(-1.0),
         gv.StepError,
-        "t = 0: cannot predict back to t = -1",
+        "t = 0: cannot predict back to t = -1\n  help: give times in order, or go on from a copy() made before that time",
     ),
     (
         lambda: gv.Filter(MODEL, LENGTH, prior=PRIOR, t0=0.0).set_controls([1]),

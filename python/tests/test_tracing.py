@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from givens._native import Graph
 from givens._trace.arguments import read_arguments
-from givens._trace.check import compare
+from givens._trace.check import compare, compare_slopes
 from givens._trace.traced import Sizes
 from givens._trace.tracer import trace
 
@@ -41,6 +41,7 @@ def test_there_are_at_least_sixty():
 def test_a_trace_computes_what_the_function_does(index):
     function = functions[index]
     compare(function, traced(index), SIZES, ())
+    assert compare_slopes(function, traced(index), SIZES, ()) is None
     rng = np.random.default_rng(index)
     compared = 0
     for scale in (0.1, 1.0, 20.0):

@@ -9,7 +9,7 @@ from precise import elementwise
 
 FUNCTIONS = {
     name: elementwise(getattr(mp, name))
-    for name in "sin cos tan asin acos atan sinh cosh tanh exp sqrt log10 floor".split()
+    for name in "sin cos tan asin acos atan sinh cosh tanh erf erfc exp sqrt log10 floor".split()
 }
 FUNCTIONS |= {
     "log": elementwise(mp.ln),

@@ -16,7 +16,7 @@ struct Apply<'a, E, const FUNCTION: usize> {
     out: &'a mut [E],
 }
 
-const FUNCTIONS: [&str; 8] = ["sin_cos", "atan2", "exp", "ln", "tanh", "pow", "hypot", "tan"];
+const FUNCTIONS: [&str; 9] = ["sin_cos", "atan2", "exp", "ln", "tanh", "pow", "hypot", "tan", "erf"];
 
 #[inline(always)]
 fn function<T: Real, const FUNCTION: usize>(x: T) -> T {
@@ -31,7 +31,8 @@ fn function<T: Real, const FUNCTION: usize>(x: T) -> T {
         4 => x.tanh(),
         5 => x.abs().pow(T::of(1.7)),
         6 => x.hypot(T::of(0.6)),
-        _ => x.tan(),
+        7 => x.tan(),
+        _ => x.erf(),
     }
 }
 
@@ -91,6 +92,7 @@ fn table<E: Element>(precision: &str) {
     row::<E, 5>();
     row::<E, 6>();
     row::<E, 7>();
+    row::<E, 8>();
 }
 
 fn main() {

@@ -1,6 +1,6 @@
 //! Exact derivatives by symbol.
 
-use core::f64::consts::LOG10_E;
+use core::f64::consts::{FRAC_2_SQRT_PI, LOG10_E};
 
 use crate::graph::{Graph, GraphError, Input, Node, Op};
 use crate::operation::{Binary, Unary};
@@ -113,6 +113,15 @@ impl Graph {
             }
             Unary::Cosh => {
                 let slope = self.unary(Unary::Sinh, a);
+                self.times(slope, da)
+            }
+            Unary::Erf | Unary::Erfc => {
+                let square = self.power(a, 2);
+                let fall = self.neg(square);
+                let bell = self.unary(Unary::Exp, fall);
+                let sign = if op == Unary::Erf { 1.0 } else { -1.0 };
+                let height = self.constant(sign * FRAC_2_SQRT_PI);
+                let slope = self.mul(height, bell);
                 self.times(slope, da)
             }
             Unary::Tanh => {

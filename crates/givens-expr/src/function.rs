@@ -45,6 +45,8 @@ pub(crate) const FUNCTIONS: &[Function] = &[
     one("sinh", "sinh(x)", Unary::Sinh),
     one("cosh", "cosh(x)", Unary::Cosh),
     one("tanh", "tanh(x)", Unary::Tanh),
+    one("erf", "erf(x)", Unary::Erf),
+    one("erfc", "erfc(x)", Unary::Erfc),
 ];
 
 pub(crate) fn function(name: &str) -> Option<&'static Function> {

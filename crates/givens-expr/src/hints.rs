@@ -71,6 +71,7 @@ pub(crate) fn function(name: &str) -> Option<&'static str> {
         "rad2deg" | "degrees" | "deg" => "write `x*180/pi`",
         "sinc" => "write `where(x == 0, 1, sin(x)/x)`",
         "heaviside" | "step" => "write `where(x > 0, 1, 0)`",
+        "normcdf" | "ndtr" | "phi" => "write `erfc(-x/sqrt(2))/2`",
         "sum" => "write the sum with `+`",
         _ => return None,
     })

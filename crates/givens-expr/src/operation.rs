@@ -39,6 +39,10 @@ pub enum Unary {
     Cosh,
     /// Hyperbolic tangent.
     Tanh,
+    /// The error function.
+    Erf,
+    /// 1 − the error function.
+    Erfc,
     /// Whether a condition does not hold.
     Not,
 }
@@ -119,6 +123,8 @@ impl Unary {
             Unary::Sinh => a.sinh(),
             Unary::Cosh => a.cosh(),
             Unary::Tanh => a.tanh(),
+            Unary::Erf => a.erf(),
+            Unary::Erfc => a.erfc(),
             Unary::Not => number(a.same(T::zero())),
         }
     }

@@ -28,7 +28,7 @@ const POWER: u8 = 8;
 /// From the tightest: `^` (to the right, also over a sign: `2^-1`), signs (−x^2 = −(x^2)), `*` and `/`, `+` and
 /// `-`, comparisons `< <= > >= == !=`, `not`, `and`, `or`. Functions: `where(condition, a, b)`, abs, sign, min and
 /// max (of two or more), floor, sqrt, hypot, exp, log, log10, sin, cos, tan, asin, acos, atan, atan2, sinh, cosh,
-/// tanh; and `pi`. Angles are in radians. Comparisons give conditions, which only `and`, `or`, `not` and `where`
+/// tanh, erf, erfc; and `pi`. Angles are in radians. Comparisons give conditions, which only `and`, `or`, `not` and `where`
 /// take.
 ///
 /// # Errors

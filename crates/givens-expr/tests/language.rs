@@ -8,6 +8,7 @@
 
 mod session;
 
+use givens_core::scalar::Real;
 use givens_expr::{Binary, Input, Meaning, Unary, functions, is_reserved, names, parse_any};
 use session::{Session, close};
 
@@ -97,6 +98,8 @@ fn of_std(name: &str, a: f64) -> f64 {
         "sinh" => a.sinh(),
         "cosh" => a.cosh(),
         "tanh" => a.tanh(),
+        "erf" => Real::erf(a),
+        "erfc" => Real::erfc(a),
         other => panic!("{other} is not tested"),
     }
 }

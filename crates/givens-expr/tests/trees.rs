@@ -24,12 +24,14 @@ enum Tree {
 }
 
 /// Functions that are smooth or tame on all numbers, so that rounding stays small.
-const ONE: [&str; 16] = [
+const ONE: [&str; 18] = [
     "-",
     "sin",
     "cos",
     "atan",
     "tanh",
+    "erf",
+    "erfc",
     "abs",
     "^2",
     "^3",
@@ -115,6 +117,8 @@ impl Tree {
                     "cos" => a.cos(),
                     "atan" => a.atan(),
                     "tanh" => a.tanh(),
+                    "erf" => a.erf(),
+                    "erfc" => a.erfc(),
                     "abs" => a.abs(),
                     "^2" => a * a,
                     "^3" => a * a * a,

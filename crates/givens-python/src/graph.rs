@@ -60,6 +60,8 @@ const UNARY: &[(&str, Unary)] = &[
     ("sinh", Unary::Sinh),
     ("cosh", Unary::Cosh),
     ("tanh", Unary::Tanh),
+    ("erf", Unary::Erf),
+    ("erfc", Unary::Erfc),
     ("not", Unary::Not),
 ];
 

@@ -11,10 +11,11 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from givens._trace.order import check_places
 from givens._trace.place import of_function
 from givens.errors import InputError
 
-__all__ = ["Arguments", "parameter_value", "read_arguments", "second_position"]
+__all__ = ["Arguments", "parameter_value", "read_arguments", "reads_state"]
 
 _POSITIONAL = (inspect.Parameter.POSITIONAL_ONLY, inspect.Parameter.POSITIONAL_OR_KEYWORD)
 
@@ -97,7 +98,6 @@ def read_arguments(
     signature = _signature(argument, function)
     given = dict(given or {})
     bound = set(function.keywords) if isinstance(function, functools.partial) else set()
-    wanted = ", ".join(required) + "".join(f"[, {name}]" for name in optional)
     positions: list[str] = []
     parameters: dict[str, npt.NDArray[np.float64]] = {}
     takes_all = False
@@ -125,24 +125,12 @@ def read_arguments(
             )
     if takes_all:
         parameters |= {n: parameter_value(argument, n, v) for n, v in given.items() if n not in parameters}
-    if not len(required) <= len(positions) <= len(required) + len(optional):
-        remedy = f"write def {argument}({', '.join((*required, *optional))}, *, parameter=1.0)"
-        if len(positions) > len(required) + len(optional) and "u" not in optional:
-            remedy += "; controls are named in controls=[…]"
-        raise InputError(
-            f"`{argument}`: {of_function(function).function} takes {_listed(positions)}, but it is given ({wanted})",
-            argument=argument,
-            remedy=remedy,
-        )
+    check_places(argument, function, positions, required, optional)
     return Arguments(tuple((*required, *optional)[: len(positions)]), parameters)
 
 
-def _listed(names: Sequence[str]) -> str:
-    return f"({', '.join(names)})" if names else "no arguments"
-
-
-def second_position(argument: str, function: Callable[..., Any]) -> str | None:
-    """The name of the second argument that has no default, if there is one."""
+def reads_state(argument: str, function: Callable[..., Any]) -> bool:
+    """Whether a function of t and x or u reads x: its second argument is not called `u`, or its only one `x`."""
     parameters = [p for p in _signature(argument, function).parameters.values() if p.kind in _POSITIONAL]
     free = [p.name for p in parameters if p.default is p.empty]
-    return free[1] if len(free) > 1 else None
+    return free[1] != "u" if len(free) > 1 else free == ["x"]

@@ -1,4 +1,4 @@
-"""Whether a trace computes what the function computes: both, at random points."""
+"""Whether a trace computes what the function computes, and has its derivatives: both, at random points."""
 
 from __future__ import annotations
 
@@ -14,10 +14,11 @@ from givens._native import Graph
 from givens._trace.place import of_function
 from givens._trace.refuse import refuse
 from givens._trace.slopes import Slopes, wrong_slope
+from givens._trace.steep import Steep
 from givens._trace.traced import Sizes, Traced
 from givens.errors import GivensError, TraceError
 
-__all__ = ["Point", "compare"]
+__all__ = ["Point", "compare", "compare_slopes"]
 
 Array = npt.NDArray[np.float64]
 
@@ -136,7 +137,6 @@ def compare(
             "pass check_at=… with a state where it is finite",
             of_function(function),
         )
-    compare_slopes(function, traced, sizes, names, near)
 
 
 def compare_slopes(
@@ -145,11 +145,11 @@ def compare_slopes(
     sizes: Sizes,
     names: tuple[str, ...],
     near: Array | None = None,
-) -> None:
-    """Raises a `TraceError` if the derivatives differ: at zero and where states are equal, at `near`, and elsewhere."""
+) -> Steep | None:
+    """Where the derivatives differ, if they do: at zero and where states are equal, at `near`, and elsewhere."""
     n = sizes.states
     if "x" not in traced.arguments.positions or not n or not traced.nodes:
-        return
+        return None
     uniform, normal = _draws()
     t, dt = 0.5, 0.25
     slopes, axes = Slopes(traced, sizes, dt), list(np.eye(n))
@@ -168,13 +168,12 @@ def compare_slopes(
         if wrong:
             k, direction, own, other = wrong
             by = f"x[{int(np.argmax(direction))}]" if np.count_nonzero(direction) == 1 else _digits(direction)
-            raise refuse(
-                f"its expressions do not have its derivatives: that of {_component(k, traced.shape, names)} by {by} is "
-                f"{own:.6g}, and that of its expressions {other:.6g} at {point.named(traced.arguments.positions)}",
-                "write np.where(x < 0, -f(-x), f(x)) for np.sign(x) * f(np.abs(x)), and give both sides of an np.where "
-                "one slope where they meet; or pass trace=False",
-                of_function(function),
+            said = (
+                f"that of {_component(k, traced.shape, names)} by {by} is {own:.6g}, and that of its expressions "
+                f"{other:.6g} at {point.named(traced.arguments.positions)}"
             )
+            return Steep(of_function(function), said)
+    return None
 
 
 def _differs(function: Callable[..., Any], said: str) -> TraceError:

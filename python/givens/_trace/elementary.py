@@ -6,6 +6,7 @@ to a few units in the last place; the sign of a zero is not kept.
 
 from __future__ import annotations
 
+import math
 from math import pi
 from typing import Any
 
@@ -82,6 +83,11 @@ def isinf(a: Any) -> Any:
     return apply("abs", a) == float("inf")
 
 
+def ndtr(a: Any) -> Any:
+    """The probability that a standard normal number lies below `a`, as SciPy calls it."""
+    return 0.5 * apply("erfc", a * -math.sqrt(0.5))
+
+
 def _scaled(factor: float) -> Any:
     return lambda a: a * factor
 
@@ -106,10 +112,10 @@ def _xor(a: Any, b: Any) -> Any:
     return binary("and", binary("or", a, b), unary("not", binary("and", a, b)))
 
 
-#: What each of NumPy's universal functions does with symbols, by its name.
+#: What each of NumPy's universal functions does with symbols, and some of SciPy's, by its name.
 ELEMENTARY: dict[str, Any] = {
     **{name: _unary(name) for name in ("sign", "floor", "sqrt", "exp", "log", "log10", "sin", "cos", "tan")},
-    **{name: _unary(name) for name in ("sinh", "cosh", "tanh")},
+    **{name: _unary(name) for name in ("sinh", "cosh", "tanh", "erf", "erfc")},
     **{f"arc{name}": _unary(f"a{name}") for name in ("sin", "cos", "tan")},
     "negative": _unary("neg"),
     "positive": lambda a: a,
@@ -149,6 +155,7 @@ ELEMENTARY: dict[str, Any] = {
     "square": square,
     "reciprocal": reciprocal,
     **{name: getattr(logarithms, name) for name in logarithms.__all__},
+    "ndtr": ndtr,
     "heaviside": heaviside,
     "copysign": copysign,
     "isnan": isnan,

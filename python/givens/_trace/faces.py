@@ -1,4 +1,4 @@
-"""What stands for NumPy, `math` and a user's modules while a function is traced.
+"""What stands for NumPy, `math`, SciPy's special functions and a user's modules while a function is traced.
 
 A universal function finds its symbols by itself; `np.zeros(3)`, a list of symbols, or `math.sin` would not.
 """
@@ -6,7 +6,6 @@ A universal function finds its symbols by itself; `np.zeros(3)`, a list of symbo
 from __future__ import annotations
 
 import builtins
-import math
 from collections.abc import Callable
 from types import ModuleType
 from typing import Any
@@ -14,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from givens._trace.array import boxed, has_symbols, lifted
+from givens._trace.elementary import ELEMENTARY
 from givens._trace.functions import call_named
 from givens._trace.mathematics import of_math
 from givens._trace.symbol import Sym
@@ -84,13 +84,16 @@ def _function(value: Any, name: str) -> Callable[..., Any]:
     return call
 
 
+#: Modules that are shown with functions that know symbols.
+_FACED = frozenset(("math", "numpy", "numpy.linalg", "scipy", "scipy.special"))
+
+
 def face_of_value(value: Any) -> Any:
     """What stands for a value of NumPy's or `math`'s; the value itself if nothing need."""
     if isinstance(value, ModuleType):
-        return Face(value, face_of_value) if _is_numpy(value.__name__) or value is math else value
+        return Face(value, face_of_value) if value.__name__ in _FACED else value
     if isinstance(value, np.ufunc):
-        known: Any = getattr(np, value.__name__, None)
-        return _Ufunc(value) if known is value else value
+        return _Ufunc(value) if value.__name__ in ELEMENTARY or getattr(np, value.__name__, None) is value else value
     if value is np.float64:
         return _Float64
     if value is np.r_ or value is np.c_:

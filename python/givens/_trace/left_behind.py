@@ -7,13 +7,16 @@ from __future__ import annotations
 
 import functools
 from collections import deque
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from types import FunctionType, MethodType
 from typing import Any
 
 import numpy as np
 
 from givens._trace.array import SymArray
+from givens._trace.culprit import line_that
+from givens._trace.place import Place
 from givens._trace.symbol import Sym
 from givens._trace.transplant import LONGEST, is_foreign, names_in
 
@@ -22,20 +25,48 @@ __all__ = ["Stores"]
 _CONTAINERS = (dict, list, set, deque)
 
 
+@dataclass(frozen=True)
+class Held:
+    """A container, by the name under which it was found, and a copy of what it held."""
+
+    name: str
+    store: Any
+    before: Any
+
+    def took_symbols(self) -> bool:
+        if isinstance(self.store, dict):
+            return any(_symbolic(part) for key, part in self.store.items() if self.before.get(key) is not part)
+        known = set(map(id, np.ravel(self.before) if isinstance(self.before, np.ndarray) else self.before))
+        parts = self.store.ravel() if isinstance(self.store, np.ndarray) else self.store
+        return any(_symbolic(part) for part in parts if id(part) not in known)
+
+    def put_back(self) -> None:
+        if isinstance(self.store, np.ndarray):
+            self.store[...] = self.before
+            return
+        self.store.clear()
+        self.store.extend(self.before) if isinstance(self.store, (list, deque)) else self.store.update(self.before)
+
+
 class Stores:
     """The containers that a function can reach, with what they held before it was traced."""
 
     def __init__(self, function: Any) -> None:
-        self._held = [(label, store, _copied(store)) for label, store in _Reach().of(function, "")]
+        self._held = [Held(label, store, store.copy()) for label, store in _Reach().of(function, "")]
 
-    def polluted(self) -> str | None:
-        """The name of the first one that took a symbol; all of them are put back as they were."""
-        found: str | None = None
-        for label, store, before in self._held:
-            if _took_symbols(store, before):
-                found = label if found is None else found
-                _put_back(store, before)
-        return found
+    def polluted(self) -> Held | None:
+        """The first one that took a symbol; all of them are put back as they were."""
+        found = [held for held in self._held if held.took_symbols()]
+        for held in found:
+            held.put_back()
+        return found[0] if found else None
+
+    def line_of(self, held: Held, call: Callable[[], object]) -> Place | None:
+        """The line that fills this one when the function is called again."""
+        try:
+            return line_that(held.took_symbols, call)
+        finally:
+            self.polluted()
 
 
 class _Reach:
@@ -98,18 +129,6 @@ def _around(function: FunctionType) -> Iterator[tuple[str, Any]]:
         yield function.__name__, wrapped
 
 
-def _copied(store: Any) -> Any:
-    return store.copy()
-
-
-def _took_symbols(store: Any, before: Any) -> bool:
-    if isinstance(store, dict):
-        return any(_symbolic(part) for key, part in store.items() if before.get(key) is not part)
-    known = set(map(id, np.ravel(before) if isinstance(before, np.ndarray) else before))
-    parts = store.ravel() if isinstance(store, np.ndarray) else store
-    return any(_symbolic(part) for part in parts if id(part) not in known)
-
-
 def _symbolic(value: Any, depth: int = 0) -> bool:
     """Whether it is made of what only stands for numbers."""
     if isinstance(value, (Sym, SymArray)):
@@ -119,11 +138,3 @@ def _symbolic(value: Any, depth: int = 0) -> bool:
     if isinstance(value, dict):
         return any(_symbolic(part, depth + 1) for part in value.values())
     return isinstance(value, (tuple, *_CONTAINERS)) and any(_symbolic(part, depth + 1) for part in value)
-
-
-def _put_back(store: Any, before: Any) -> None:
-    if isinstance(store, np.ndarray):
-        store[...] = before
-        return
-    store.clear()
-    store.extend(before) if isinstance(store, (list, deque)) else store.update(before)

@@ -50,7 +50,7 @@ _NAMES = {
         name: name
         for name in ("sqrt", "cbrt", "exp2", "floor", "ceil", "trunc", "copysign", "fmod", "degrees", "radians")
     },
-    **{name: name for name in ("fabs", "isnan", "isfinite", "isinf")},
+    **{name: name for name in ("erf", "erfc", "fabs", "isnan", "isfinite", "isinf")},
     **{f"a{name}": f"arc{name}" for name in ("sin", "cos", "tan", "sinh", "cosh", "tanh")},
     "atan2": "arctan2",
 }

@@ -4,14 +4,20 @@ from __future__ import annotations
 
 import os
 import sys
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import CodeType, FrameType, TracebackType
+from typing import Any
 
 import numpy as np
 
-__all__ = ["Place", "here", "of_function", "of_traceback"]
+__all__ = ["Place", "here", "is_users", "locals_at", "of_function", "of_traceback", "place_of"]
 
-_OURS = (os.path.dirname(__file__), os.path.dirname(np.__file__))
+#: This package, NumPy, and what SymPy makes of expressions.
+_OURS = (
+    os.path.join(os.path.dirname(os.path.dirname(__file__)), ""),
+    os.path.join(os.path.dirname(np.__file__), ""),
+    "<lambdifygenerated",
+)
 
 
 @dataclass(frozen=True)
@@ -31,12 +37,17 @@ class Place:
         return f"{_short(self.file)}:{self.line}{inside}{text}"
 
 
+def is_users(code: CodeType) -> bool:
+    """Whether it is neither this package's nor NumPy's."""
+    return not code.co_filename.startswith(_OURS)
+
+
 def here() -> Place:
     """The innermost line that is neither this package's nor NumPy's."""
     frame: FrameType | None = sys._getframe(1)
     while frame is not None:
-        if not frame.f_code.co_filename.startswith(_OURS):
-            return _place(frame.f_code, frame.f_lineno)
+        if is_users(frame.f_code):
+            return place_of(frame.f_code, frame.f_lineno)
         frame = frame.f_back
     return Place()
 
@@ -46,15 +57,27 @@ def of_traceback(traceback: TracebackType | None) -> Place:
     found = Place()
     while traceback is not None:
         code = traceback.tb_frame.f_code
-        if not code.co_filename.startswith(_OURS):
-            found = _place(code, traceback.tb_lineno)
+        if is_users(code):
+            found = place_of(code, traceback.tb_lineno)
+        traceback = traceback.tb_next
+    return found
+
+
+def locals_at(traceback: TracebackType | None) -> dict[str, Any]:
+    """The variables at that line."""
+    found: dict[str, Any] = {}
+    while traceback is not None:
+        if is_users(traceback.tb_frame.f_code):
+            found = traceback.tb_frame.f_locals
         traceback = traceback.tb_next
     return found
 
 
 def of_function(function: object) -> Place:
-    """The line where a function begins."""
+    """The line where a function begins; of one that this package made, the line at work."""
     code = getattr(getattr(function, "__func__", function), "__code__", None)
+    if isinstance(code, CodeType) and not is_users(code):
+        return replace(here(), function=_name(code))
     if isinstance(code, CodeType):
         return Place(_name(code), code.co_filename, code.co_firstlineno, None)
     return Place(getattr(function, "__qualname__", None) or type(function).__name__)
@@ -71,7 +94,8 @@ def _short(file: str) -> str:
     return file.removeprefix(folder)
 
 
-def _place(code: CodeType, line: int) -> Place:
+def place_of(code: CodeType, line: int) -> Place:
+    """That line, with its text."""
     import linecache
 
     source = linecache.getline(code.co_filename, line).strip() or None

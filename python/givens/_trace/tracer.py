@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from typing import Any
 
@@ -10,7 +11,7 @@ import numpy as np
 from givens._trace.arguments import Arguments
 from givens._trace.array import SymArray, boxed
 from givens._trace.left_behind import Stores
-from givens._trace.place import of_function, of_traceback
+from givens._trace.place import Place, locals_at, of_function, of_traceback
 from givens._trace.refuse import failures, refuse
 from givens._trace.symbol import Sym
 from givens._trace.tape import Tape
@@ -36,10 +37,11 @@ def trace(function: Callable[..., Any], arguments: Arguments, sizes: Sizes, name
     kept = stores.polluted()
     if kept is None:
         return traced
+    place = stores.line_of(kept, lambda: _called(function, arguments, sizes, Tape(), names))
     raise refuse(
-        f"it keeps a value that is not known yet in `{kept}`",
+        f"it keeps a value that is not known yet in `{kept.name}`",
         "keep nothing between calls: fill a cache before, compute it outside, or pass trace=False",
-        of_function(function),
+        place or of_function(function),
     )
 
 
@@ -94,7 +96,7 @@ def _called(
     except Exception as error:
         if noted:
             raise noted[0] from error
-        raise _foreign(error, function) from error
+        raise _foreign(error, function, arguments.positions) from error
     finally:
         failures.reset(token)
     if noted:
@@ -102,14 +104,45 @@ def _called(
     return _answer(result, function, names)
 
 
-def _foreign(error: Exception, function: Callable[..., Any]) -> TraceError:
+#: What Python says when a number is taken for an array.
+_NO_ELEMENTS = re.compile(r"'Sym'.* (not subscriptable|not iterable|no len)|non-iterable Sym|iterable, not Sym")
+
+
+def _foreign(error: Exception, function: Callable[..., Any], positions: tuple[str, ...]) -> TraceError:
     """What the function itself, or a library it calls, raised."""
     place = of_traceback(error.__traceback__)
     place = place if place.file else of_function(function)
+    if isinstance(error, TypeError) and _NO_ELEMENTS.search(str(error)):
+        return _no_elements(error, function, positions, place)
     said = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
     return refuse(
         f"when called with symbols it raised {said}",
         "call it with numbers first; if it is right, write it in NumPy's own functions, or pass trace=False",
+        place,
+    )
+
+
+def _no_elements(
+    error: Exception, function: Callable[..., Any], positions: tuple[str, ...], place: Place
+) -> TraceError:
+    """Of a single number that was taken for an array: of the time, most likely, by a function of (x, t)."""
+    line = place.source or ""
+    for name, value in locals_at(error.__traceback__).items():
+        taken = rf"\b{name}\s*\[|[*=(]\s*{name}\s*($|[,)\]])|\bin\s+{name}\b"
+        if not isinstance(value, Sym) or not re.search(taken, line):
+            continue
+        kind = str(value.tape.instructions[value.node][0])
+        if kind in ("time", "step"):
+            called = of_function(function).function or "f"
+            called = called if called.isidentifier() else "f"
+            return refuse(
+                f"write {called}({', '.join(positions)}): `{name}` is the {kind}, one number, and taken for an array",
+                "the time comes first, then " + ("the step, then " if "dt" in positions else "") + "the state",
+                place,
+            )
+    return refuse(
+        "one number is taken for an array",
+        "x and u are arrays, their elements, t and dt are numbers; np.atleast_1d makes an array of a number",
         place,
     )
 

@@ -21,12 +21,12 @@ _TWO_RESULTS = {
 }
 
 
-def elementwise(name: str, *inputs: Any) -> Any:
-    """A function of NumPy's, element by element over what broadcasts; numbers alone go to NumPy itself."""
+def elementwise(name: str, *inputs: Any, real: Any = None) -> Any:
+    """A function element by element over what broadcasts; numbers alone go to `real`, or to NumPy's of that name."""
     function = ELEMENTARY.get(name)
     if function is None:
-        raise refuse_function(f"numpy.{name}")
-    return _over(function, getattr(np, name), inputs)
+        raise refuse_function(f"numpy.{name}" if hasattr(np, name) else name)
+    return _over(function, real or getattr(np, name), inputs)
 
 
 def _over(function: Any, real: Any, inputs: tuple[Any, ...]) -> Any:
@@ -73,7 +73,7 @@ def _called(ufunc: np.ufunc, name: str, method: str, inputs: tuple[Any, ...], kw
     if method == "__call__" and name in _TWO_RESULTS:
         return tuple(_over(function, _only(ufunc, k), inputs) for k, function in enumerate(_TWO_RESULTS[name]))
     if method == "__call__":
-        return elementwise(name, *inputs)
+        return elementwise(name, *inputs, real=ufunc)
     if method == "outer":
         a, b = (boxed(value) for value in inputs)
         return elementwise(name, a.reshape(a.shape + (1,) * b.ndim), b)

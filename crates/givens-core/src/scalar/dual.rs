@@ -1,7 +1,8 @@
 //! Second-order duals: a value with its first and second derivative along one direction.
 
+mod operators;
+
 use super::{Inside, Real};
-use core::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
 /// x(s) = v + d s + ½ dd s² + …: a value, and its first and second derivative along one direction s.
 ///
@@ -61,73 +62,10 @@ impl<T: Real> Dual2<T> {
     }
 }
 
-impl<T: Real> Add for Dual2<T> {
-    type Output = Self;
-    #[inline(always)]
-    fn add(self, o: Self) -> Self {
-        Self { v: self.v + o.v, d: self.d + o.d, dd: self.dd + o.dd }
-    }
-}
-
-impl<T: Real> Sub for Dual2<T> {
-    type Output = Self;
-    #[inline(always)]
-    fn sub(self, o: Self) -> Self {
-        Self { v: self.v - o.v, d: self.d - o.d, dd: self.dd - o.dd }
-    }
-}
-
-impl<T: Real> Mul for Dual2<T> {
-    type Output = Self;
-    #[inline(always)]
-    fn mul(self, o: Self) -> Self {
-        let cross = self.d * o.d;
-        Self {
-            v: self.v * o.v,
-            d: self.v.mul_add(o.d, self.d * o.v),
-            dd: self.v.mul_add(o.dd, self.dd.mul_add(o.v, cross + cross)),
-        }
-    }
-}
-
-impl<T: Real> Div for Dual2<T> {
-    type Output = Self;
-    #[inline(always)]
-    fn div(self, o: Self) -> Self {
-        let v = self.v / o.v;
-        let d = (self.d - v * o.d) / o.v;
-        let dd = (self.dd - v * o.dd - (d + d) * o.d) / o.v;
-        Self { v, d, dd }
-    }
-}
-
-impl<T: Real> Neg for Dual2<T> {
-    type Output = Self;
-    #[inline(always)]
-    fn neg(self) -> Self {
-        Self { v: -self.v, d: -self.d, dd: -self.dd }
-    }
-}
-
-impl<T: Real> AddAssign for Dual2<T> {
-    #[inline(always)]
-    fn add_assign(&mut self, o: Self) {
-        *self = *self + o;
-    }
-}
-
-impl<T: Real> SubAssign for Dual2<T> {
-    #[inline(always)]
-    fn sub_assign(&mut self, o: Self) {
-        *self = *self - o;
-    }
-}
-
-impl<T: Real> MulAssign for Dual2<T> {
-    #[inline(always)]
-    fn mul_assign(&mut self, o: Self) {
-        *self = *self * o;
-    }
+/// 2/√π e^(−x²), the slope of the error function.
+#[inline(always)]
+fn bell<T: Real>(x: T) -> T {
+    T::of(core::f64::consts::FRAC_2_SQRT_PI) * (-(x * x)).exp()
 }
 
 impl<T: Real> Real for Dual2<T> {
@@ -245,6 +183,16 @@ impl<T: Real> Real for Dual2<T> {
         let t = self.v.tanh();
         let f1 = (T::one() - t) * (T::one() + t);
         self.chain(t, f1, -(t + t) * f1)
+    }
+    #[inline(always)]
+    fn erf(self) -> Self {
+        let f1 = bell(self.v);
+        self.chain(self.v.erf(), f1, -(self.v + self.v) * f1)
+    }
+    #[inline(always)]
+    fn erfc(self) -> Self {
+        let f1 = -bell(self.v);
+        self.chain(self.v.erfc(), f1, -(self.v + self.v) * f1)
     }
     #[inline(always)]
     fn pow(self, e: Self) -> Self {

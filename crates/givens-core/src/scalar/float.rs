@@ -15,7 +15,7 @@ macro_rules! elementary {
 macro_rules! float {
     ($float:ident, $sqrt:path, $floor:path, $exp:path, $ln:path, $log10:path, $sincos:path, $tan:path,
      $asin:path, $acos:path, $atan:path, $atan2:path, $sinh:path, $cosh:path, $tanh:path, $pow:path,
-     $hypot:path) => {
+     $hypot:path, $erf:path, $erfc:path) => {
         impl Real for $float {
             type Mask = bool;
             const EPSILON: f64 = $float::EPSILON as f64;
@@ -110,6 +110,15 @@ macro_rules! float {
             fn tanh(self) -> $float {
                 elementary!($float, self, tanh, $tanh)
             }
+            // the standard library has neither yet
+            #[inline(always)]
+            fn erf(self) -> $float {
+                $erf(self)
+            }
+            #[inline(always)]
+            fn erfc(self) -> $float {
+                $erfc(self)
+            }
             #[inline(always)]
             fn pow(self, e: $float) -> $float {
                 elementary!($float, self, powf, $pow, e)
@@ -150,6 +159,11 @@ macro_rules! float {
     };
 }
 
+/// In double precision: libm's own errs by more than two units in the last place.
+fn erfcf(x: f32) -> f32 {
+    libm::erfc(f64::from(x)) as f32
+}
+
 float!(
     f64,
     libm::sqrt,
@@ -167,7 +181,9 @@ float!(
     libm::cosh,
     libm::tanh,
     libm::pow,
-    libm::hypot
+    libm::hypot,
+    libm::erf,
+    libm::erfc
 );
 float!(
     f32,
@@ -186,5 +202,7 @@ float!(
     libm::coshf,
     libm::tanhf,
     libm::powf,
-    libm::hypotf
+    libm::hypotf,
+    libm::erff,
+    erfcf
 );

@@ -134,6 +134,10 @@ pub trait Real:
     fn cosh(self) -> Self;
     /// Hyperbolic tangent.
     fn tanh(self) -> Self;
+    /// The error function, 2/√π times the integral of e^(−s²) from 0 to `self`.
+    fn erf(self) -> Self;
+    /// 1 − erf, which keeps its digits where erf is next to 1; to three units in the last place.
+    fn erfc(self) -> Self;
     /// `self` to the power `e`.
     fn pow(self, e: Self) -> Self;
     /// `self` to a whole power.

@@ -1,4 +1,4 @@
-//! No elementary function of a pack errs by more than two units in the last place.
+//! No elementary function of a pack errs by more than two units in the last place; erfc, which is libm's, by three.
 //!
 //! In double precision against values of 60 digits (`reference.csv`, drawn over the whole range, with the worst of a
 //! search through some 10⁶ points of every function; `reference.py` writes it); in single precision against the functions
@@ -9,9 +9,9 @@ use super::every_set::{Check, every_pack, units};
 use super::reference::{Point, points};
 use givens_core::scalar::{InstructionSet, Pack, Real};
 
-pub const FUNCTIONS: [&str; 15] = [
+pub const FUNCTIONS: [&str; 17] = [
     "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "exp", "ln", "log10", "sinh", "cosh", "tanh",
-    "pow", "hypot",
+    "erf", "erfc", "pow", "hypot",
 ];
 
 /// The function of that name; those of one number ignore y.
@@ -30,6 +30,8 @@ pub fn function<T: Real>(name: &str, x: T, y: T) -> T {
         "sinh" => x.sinh(),
         "cosh" => x.cosh(),
         "tanh" => x.tanh(),
+        "erf" => x.erf(),
+        "erfc" => x.erfc(),
         "pow" => x.pow(y),
         "hypot" => x.hypot(y),
         _ => panic!("{name}"),
@@ -81,13 +83,14 @@ impl Check for Accuracy {
             let points = if single { floats(name) } else { points(name) };
             let (error, x, y) = worst::<P>(name, &points);
             println!("{name:>8} {error:.3} of {:>6} points, at {x:e} {y:e}", points.len());
-            assert!(error <= 2.0, "{set:?}: {name}({x:e}, {y:e}) errs by {error} units in the last place");
+            let most = if name == "erfc" { 3.0 } else { 2.0 };
+            assert!(error <= most, "{set:?}: {name}({x:e}, {y:e}) errs by {error} units in the last place");
         }
     }
 }
 
 #[test]
-fn functions_err_by_two_units_in_the_last_place_at_most() {
+fn functions_err_by_two_units_in_the_last_place_at_most_and_erfc_by_three() {
     every_pack::<Accuracy>();
 }
 

@@ -18,6 +18,8 @@ mpmath.mp.prec = 220
 FILE = Path(__file__).with_name("reference.csv")
 ONE = "sin cos tan asin acos atan exp ln log10 sinh cosh tanh".split()
 TWO = "atan2 pow hypot".split()
+# drawn last, so that the others stay
+LATER = "erf erfc".split()
 
 
 def bits(x):
@@ -79,6 +81,10 @@ def drawn(name, rng):
         return [size(-1074, 1023), 1 + sign(size(-52, -1)), rng.uniform(0.3, 3)]
     if name in ("sinh", "cosh"):
         return [rng.uniform(-710.4, 710.4), rng.uniform(-2, 2), sign(size(-1022, 4))]
+    if name == "erf":
+        return [rng.uniform(-6.2, 6.2), rng.uniform(-1.3, 1.3), sign(size(-1022, 3))]
+    if name == "erfc":
+        return [rng.uniform(-6.2, 27.3), rng.uniform(-1.3, 1.3), sign(size(-60, 2)), rng.uniform(0.8, 2.9)]
     return [rng.uniform(-22, 22), rng.uniform(-2, 2), sign(size(-1022, 4))]
 
 
@@ -103,6 +109,8 @@ def main():
         points |= {(name, x, 0.0) for _ in range(60) for x in drawn(name, rng)}
     for name in TWO:
         points |= {(name, x, y) for _ in range(80) for x, y in drawn_pairs(name, rng)}
+    for name in LATER:
+        points |= {(name, x, 0.0) for _ in range(60) for x in drawn(name, rng)}
     FILE.write_text("".join(sorted(row(*point) + "\n" for point in points)))
 
 

@@ -8,7 +8,12 @@ fn expression<T: Real>(x: T, y: T) -> T {
     let (s, c) = (x * y).sin_cos();
     let near = T::of(0.3) * s;
     let circular = near.asin() + near.acos() + near.tan() + (x / y).atan() + s.atan2(c + T::of(2.0));
-    let growing = near.exp() + near.sinh() * near.cosh() + near.tanh() + y.abs().ln() + y.abs().log10();
+    let growing = near.exp()
+        + near.sinh() * near.cosh()
+        + near.tanh()
+        + near.erf() * y.erfc()
+        + y.abs().ln()
+        + y.abs().log10();
     let powers = y.abs().pow(near) + x.powi(3) + x.hypot(y) + y.abs().sqrt() + y.recip();
     T::select(x.lt(y), circular, growing)
         + powers.max(circular).min(growing * growing)

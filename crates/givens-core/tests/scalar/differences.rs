@@ -33,7 +33,7 @@ impl Function for Numbered {
             12 => (x * y).atan(),
             13 => y.atan2(x - T::of(3.0)),
             14 => x.sinh() - y.cosh(),
-            15 => (x - y).tanh(),
+            15 => (x - y).tanh() * (x + y).erf() + x.erfc(),
             16 => positive.pow(y),
             17 => x.powi(3) + (x - T::of(4.0)).powi(-2),
             18 => (x + two).hypot(y),

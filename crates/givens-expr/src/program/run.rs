@@ -200,7 +200,7 @@ impl<'m, T: Real> Machine<'m, T> {
         macro_rules! loops {
             ($($op:ident)*) => { match op { $(Unary::$op => self.map(instruction, |a| Unary::$op.apply(a)),)* } };
         }
-        loops!(Neg Abs Sign Floor Sqrt Exp Log Log10 Sin Cos Tan Asin Acos Atan Sinh Cosh Tanh Not);
+        loops!(Neg Abs Sign Floor Sqrt Exp Log Log10 Sin Cos Tan Asin Acos Atan Sinh Cosh Tanh Erf Erfc Not);
     }
 
     #[inline(never)]

@@ -172,7 +172,7 @@ impl Real for Counted {
         note(|count| count.functions += 1);
         Self(Real::hypot(self.0, y.0))
     }
-    functions! { floor exp ln log10 tan asin acos atan sinh cosh tanh }
+    functions! { floor exp ln log10 tan asin acos atan sinh cosh tanh erf erfc }
     comparisons! { lt le same }
     fn select(mask: bool, yes: Self, no: Self) -> Self {
         if mask { yes } else { no }

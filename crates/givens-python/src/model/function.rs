@@ -24,9 +24,33 @@ pub enum How {
     /// f(t, dt, x, u, p) of Python; x is n × points and the result d × points.
     Callable(Py<PyAny>),
     /// A function of C, which reads the controls behind the parameters.
-    Plain(Plain, Py<PyAny>),
+    Plain(Plain, Owned),
     /// The same with the length of the step.
-    Stepped(Stepped, Py<PyAny>),
+    Stepped(Stepped, Owned),
+}
+
+/// What a function of C is called with besides where it is.
+#[derive(Debug)]
+pub struct Owned {
+    /// Keeps the function where it is.
+    owner: Py<PyAny>,
+    /// Which of the model's parameters are its own, in its order; all of them if it does not say.
+    parameters: Option<Box<[usize]>>,
+}
+
+impl Owned {
+    fn again(&self, py: Python<'_>) -> Self {
+        Self { owner: self.owner.clone_ref(py), parameters: self.parameters.clone() }
+    }
+
+    /// Its parameters, the controls behind them, and a zero so that there is no empty array.
+    fn numbers(&self, at: &Place) -> Vec<f64> {
+        let own: Vec<f64> = match &self.parameters {
+            Some(places) => places.iter().map(|&i| at.p.get(i).copied().unwrap_or(f64::NAN)).collect(),
+            None => at.p.to_vec(),
+        };
+        own.iter().chain(at.u).copied().chain([0.0]).collect()
+    }
 }
 
 impl How {
@@ -34,8 +58,8 @@ impl How {
     pub fn again(&self, py: Python<'_>) -> Self {
         match self {
             How::Callable(f) => How::Callable(f.clone_ref(py)),
-            How::Plain(f, owner) => How::Plain(*f, owner.clone_ref(py)),
-            How::Stepped(f, owner) => How::Stepped(*f, owner.clone_ref(py)),
+            How::Plain(f, owner) => How::Plain(*f, owner.again(py)),
+            How::Stepped(f, owner) => How::Stepped(*f, owner.again(py)),
         }
     }
 
@@ -58,12 +82,13 @@ impl Function {
 
     /// A function of C at an address; see the stub. `owner` is kept alive as long as the function may be called.
     #[staticmethod]
-    #[pyo3(signature = (address, owner, *, step=false))]
+    #[pyo3(signature = (address, owner, *, step=false, parameters=None))]
     #[allow(unsafe_code)]
-    fn address(address: usize, owner: Py<PyAny>, step: bool) -> Result<Self> {
+    fn address(address: usize, owner: Py<PyAny>, step: bool, parameters: Option<Vec<usize>>) -> Result<Self> {
         if address == 0 {
             return Err(Input::new("address", "the address of the function is null").into());
         }
+        let owner = Owned { owner, parameters: parameters.map(Vec::into_boxed_slice) };
         let pointer = core::ptr::without_provenance::<()>(address);
         // SAFETY: the address is not null, and the user says that a function of this signature stands there: nothing else
         // can be known about it. The owner keeps it there.
@@ -98,15 +123,15 @@ impl How {
                     watch::raise(error);
                 }
             }
-            How::Plain(..) | How::Stepped(..) => self.by_address(at, points, x, out),
+            How::Plain(_, owned) | How::Stepped(_, owned) => {
+                self.by_address(at, &owned.numbers(at), points, x, out);
+            }
         }
     }
 
     #[allow(unsafe_code)]
-    fn by_address(&self, at: &Place, points: usize, x: &[f64], out: &mut [f64]) {
+    fn by_address(&self, at: &Place, p: &[f64], points: usize, x: &[f64], out: &mut [f64]) {
         let (n, d) = (x.len() / points.max(1), out.len() / points.max(1));
-        // controls behind the parameters, and never an empty array
-        let p: Vec<f64> = at.p.iter().chain(at.u).copied().chain([0.0]).collect();
         let (mut point, mut image) = (vec![0.0; n.max(1)], vec![f64::NAN; d.max(1)]);
         for k in 0..points {
             (0..n).for_each(|i| point[i] = x[i * points + k]);

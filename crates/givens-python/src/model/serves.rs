@@ -98,7 +98,7 @@ impl Model {
     fn refused(&self, choice: &Choice, part: &Part, derivatives: &str) -> Refusal {
         let bring = match (derivatives, part.jacobian.is_some()) {
             (_, true) => "; `jacobian` brings the first only",
-            _ => " and has none",
+            _ => ", and has none",
         };
         let message = format!(
             "`{}` takes {derivatives} of `{}`, which is called, not traced{bring}",

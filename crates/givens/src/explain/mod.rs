@@ -191,6 +191,18 @@ impl Explain<'_> {
                 let what = "the diffusion depends on the state".to_owned();
                 (what, format!("time updates for such a model are moment-ode ({named}) and euler-maruyama"))
             }
+            Fault::Backwards { .. } => {
+                let remedy = match self.face {
+                    Face::Command => "give times in order",
+                    Face::Python => "give times in order, or go on from a copy() made before that time",
+                };
+                (fault.to_string(), remedy.to_owned())
+            }
+            Fault::NotWholeSteps { .. } => {
+                let remedy =
+                    "put the times on whole steps, or write the transition in `dt` and leave `step` out";
+                (fault.to_string(), remedy.to_owned())
+            }
             Fault::ControlsNotSet { controls } if self.face == Face::Python => {
                 (format!("the model has {controls} controls that were never set"), "give `u`".to_owned())
             }

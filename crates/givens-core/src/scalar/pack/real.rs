@@ -57,7 +57,7 @@ macro_rules! elementary {
         fn sin_cos(self) -> (Self, Self) {
             math::sin_cos(self)
         }
-        elementary!(exp ln log10 tan asin acos atan sinh cosh tanh);
+        elementary!(exp ln log10 tan asin acos atan sinh cosh tanh erf erfc);
         elementary!(binary atan2 pow hypot);
     };
     (binary $($function:ident)*) => {

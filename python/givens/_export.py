@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from givens.batch import Batch
     from givens.estimates import Estimates
 
-__all__ = ["batch_to_pandas", "batch_to_polars", "to_pandas", "to_polars", "to_xarray"]
+__all__ = ["batch_to_pandas", "batch_to_polars", "batch_to_xarray", "to_pandas", "to_polars", "to_xarray"]
 
 _LAST = ("nis", "nis_dof", "log_likelihood")
 
@@ -80,17 +80,15 @@ def to_polars(one: Estimates) -> Any:
     return _polars([one])
 
 
-def _names(batch: Batch) -> list[Any]:
-    """The track of each row."""
-    return [name for name, one in zip(batch.track_ids, batch, strict=True) for _ in range(len(one))]
-
-
 def batch_to_pandas(batch: Batch) -> Any:
     """See `Batch.to_pandas`."""
     pandas = wanted("pandas")
     if not len(batch):
         return pandas.DataFrame()
-    return _pandas(batch, ("track_id",)).assign(track_id=_names(batch)).set_index(["track_id", "time"])
+    frame = _pandas(batch, ("track_id",))
+    names = pandas.Series(batch.track_ids).repeat([len(one) for one in batch])
+    frame.insert(0, "track_id", names.to_numpy())
+    return frame.set_index(["track_id", "time"])
 
 
 def batch_to_polars(batch: Batch) -> Any:
@@ -98,19 +96,42 @@ def batch_to_polars(batch: Batch) -> Any:
     polars = wanted("polars")
     if not len(batch):
         return polars.DataFrame()
-    names = polars.Series("track_id", _names(batch))
+    rows = np.repeat(np.arange(len(batch)), [len(one) for one in batch])
+    names = polars.Series("track_id", batch.track_ids).gather(rows)
     return _polars(batch, ("track_id",)).select(names, polars.all())
+
+
+_STATE, _MEASURE = ("state",), ("measure",)
+#: The arrays of a data set, with their dimensions behind time.
+_DIMS: dict[str, tuple[str, ...]] = {
+    **dict.fromkeys(("mean", "std", "filtered_mean", "predicted_mean"), _STATE),
+    **dict.fromkeys(("cov", "filtered_cov", "predicted_cov"), (*_STATE, "state2")),
+    "innovation": _MEASURE,
+    "innovation_cov": (*_MEASURE, "measure2"),
+    **dict.fromkeys(_LAST, ()),
+}
+
+
+def _xarray(of: Estimates | Batch, one: Estimates, front: tuple[str, ...], coords: dict[str, Any]) -> Any:
+    xarray = wanted("xarray")
+    names, measures = list(one.state), list(one.measures)
+    coords |= {"state": names, "state2": names, "measure": measures, "measure2": measures}
+    data = {name: ((*front, *dims), getattr(of, name)) for name, dims in _DIMS.items()}
+    return xarray.Dataset(data, coords, {"method": one.method, "smoothed": int(one.is_smoothed)})
 
 
 def to_xarray(one: Estimates) -> Any:
     """See `Estimates.to_xarray`."""
+    return _xarray(one, one, ("time",), {"time": np.asarray(one.time)})
+
+
+def batch_to_xarray(batch: Batch) -> Any:
+    """See `Batch.to_xarray`."""
     xarray = wanted("xarray")
-    state, measure = ("time", "state"), ("time", "measure")
-    dims: dict[str, tuple[str, ...]] = {"mean": state, "std": state, "filtered_mean": state, "predicted_mean": state}
-    dims |= dict.fromkeys(("cov", "filtered_cov", "predicted_cov"), (*state, "state2"))
-    dims |= {"innovation": measure, "innovation_cov": (*measure, "measure2")}
-    dims |= dict.fromkeys(("nis", "nis_dof", "log_likelihood"), ("time",))
-    names, measures = list(one.state), list(one.measures)
-    coords = {"time": np.asarray(one.time), "state": names, "state2": names, "measure": measures, "measure2": measures}
-    data = {name: (of, getattr(one, name)) for name, of in dims.items()}
-    return xarray.Dataset(data, coords, {"method": one.method, "smoothed": int(one.is_smoothed)})
+    if not len(batch):
+        return xarray.Dataset()
+    longest = max(batch, key=len)
+    alike = all(np.array_equal(one.time, longest.time[: len(one)]) for one in batch)
+    coords: dict[str, Any] = {"track": batch.track_ids}
+    coords["time"] = np.asarray(longest.time) if alike else (("track", "row"), np.asarray(batch.time))
+    return _xarray(batch, longest, ("track", "time" if alike else "row"), coords)

@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 
-from givens import _native
 from givens._plan import Goal, Track, plan
 from givens._scalars import threads_of
 from givens.batch import Batch
@@ -179,30 +178,13 @@ def smooth(
 
 
 def _run(tracks: list[Track], batch: bool, goals: list[Goal], at: Any, threads: int | None) -> Estimates | Batch:
-    times = [None if at is None else track.clock.wanted("at", at) for track in tracks]
     threads = threads_of(threads)
-    if not batch:
-        goal, wanted = goals[0], times[0]
-        native = tracks[0].run(goal.word, goal.value, None if wanted is None else wanted.seconds)
-        error = step_error(tracks[0], native, goal)
-        if error is not None:
-            raise error
-        return Estimates._of(tracks[0], native, goal, wanted)
-    jobs = [
-        track.arguments(None if wanted is None else wanted.seconds) for track, wanted in zip(tracks, times, strict=True)
-    ]
-    found: list[Any] = [None] * len(jobs)
-    alike: dict[Goal, list[int]] = {}
-    for k, goal in enumerate(goals):
-        alike.setdefault(goal, []).append(k)
-    for goal, these in alike.items():
-        natives = _native.run_batch([jobs[k] for k in these], goal.word, goal.value, threads)
-        for k, native in zip(these, natives, strict=True):
-            found[k] = native
-    estimates, failed = [], []
-    for k, (track, native, goal, wanted) in enumerate(zip(tracks, found, goals, times, strict=True)):
-        error = step_error(track, native, goal, k if track.id is None else track.id)
-        if error is not None:
-            failed.append(error)
-        estimates.append(Estimates._of(track, native, goal, wanted, error))
-    return Batch(estimates, failed)
+    if batch:
+        return Batch._run(tracks, goals, at, threads)
+    (track,), (goal,) = tracks, goals
+    wanted = None if at is None else track.clock.wanted("at", at)
+    native = track.run(goal.word, goal.value, None if wanted is None else wanted.seconds)
+    error = step_error(track, native, goal)
+    if error is not None:
+        raise error
+    return Estimates._of(track, native, goal, wanted)

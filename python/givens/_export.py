@@ -14,21 +14,21 @@ if TYPE_CHECKING:
     from givens.batch import Batch
     from givens.estimates import Estimates
 
-__all__ = ["batch_to_pandas", "batch_to_polars", "batch_to_xarray", "to_pandas", "to_polars", "to_xarray"]
+__all__ = ["aware", "batch_to_pandas", "batch_to_xarray", "columns", "to_pandas", "to_polars", "to_xarray"]
 
 _LAST = ("nis", "nis_dof", "log_likelihood")
 
 
-def _columns(runs: Sequence[Estimates], first: Iterable[str] = ()) -> dict[str, Any]:
+def columns(runs: Sequence[Estimates], first: Iterable[str] = ()) -> dict[str, Any]:
     """The columns of the command's CSV, of runs below each other; `first` are those that the caller adds."""
     state = runs[0].state
     _distinct(state, ("time", *first))
     # one array for each column: tables of single runs would cost more than all their rows
     mean, std = (np.concatenate([getattr(one, name) for one in runs]) for name in ("mean", "std"))
-    columns: dict[str, Any] = {"time": np.concatenate([one.time for one in runs])}
-    columns |= {name: mean[:, i] for i, name in enumerate(state)}
-    columns |= {f"{name}_std": std[:, i] for i, name in enumerate(state)}
-    return columns | {name: np.concatenate([getattr(one, name) for one in runs]) for name in _LAST}
+    found: dict[str, Any] = {"time": np.concatenate([one.time for one in runs])}
+    found |= {name: mean[:, i] for i, name in enumerate(state)}
+    found |= {f"{name}_std": std[:, i] for i, name in enumerate(state)}
+    return found | {name: np.concatenate([getattr(one, name) for one in runs]) for name in _LAST}
 
 
 def _distinct(state: Sequence[str], first: Iterable[str]) -> None:
@@ -44,30 +44,16 @@ def _distinct(state: Sequence[str], first: Iterable[str]) -> None:
             )
 
 
-def _aware(runs: Sequence[Estimates]) -> bool:
+def aware(runs: Sequence[Estimates]) -> bool:
+    """Whether the times are dates that had a time zone."""
     return any(one.__dict__["_aware"] for one in runs)
 
 
 def _pandas(runs: Sequence[Estimates], first: Iterable[str] = ()) -> Any:
-    frame = wanted("pandas").DataFrame(_columns(runs, first))
-    if _aware(runs):
+    frame = wanted("pandas").DataFrame(columns(runs, first))
+    if aware(runs):
         frame["time"] = frame["time"].dt.tz_localize("UTC")
     return frame
-
-
-def _polars(runs: Sequence[Estimates], first: Iterable[str] = ()) -> Any:
-    polars = wanted("polars")
-    columns = _columns(runs, first)
-    if columns["time"].dtype.kind == "M" and np.datetime_data(columns["time"].dtype)[0] not in _OF_POLARS:
-        columns["time"] = columns["time"].astype("datetime64[ms]")
-    frame = polars.DataFrame(columns)
-    if _aware(runs):
-        frame = frame.with_columns(polars.col("time").dt.replace_time_zone("UTC"))
-    return frame
-
-
-#: Units of dates that polars has.
-_OF_POLARS = ("D", "ms", "us", "ns")
 
 
 def to_pandas(one: Estimates) -> Any:
@@ -75,9 +61,9 @@ def to_pandas(one: Estimates) -> Any:
     return _pandas([one]).set_index("time")
 
 
-def to_polars(one: Estimates) -> Any:
+def to_polars(of: Estimates | Batch) -> Any:
     """See `Estimates.to_polars`."""
-    return _polars([one])
+    return wanted("polars").DataFrame(of)
 
 
 def batch_to_pandas(batch: Batch) -> Any:
@@ -85,20 +71,10 @@ def batch_to_pandas(batch: Batch) -> Any:
     pandas = wanted("pandas")
     if not len(batch):
         return pandas.DataFrame()
-    frame = _pandas(batch, ("track_id",))
+    frame = _pandas(tuple(batch), ("track_id",))
     names = pandas.Series(batch.track_ids).repeat([len(one) for one in batch])
     frame.insert(0, "track_id", names.to_numpy())
     return frame.set_index(["track_id", "time"])
-
-
-def batch_to_polars(batch: Batch) -> Any:
-    """See `Batch.to_polars`."""
-    polars = wanted("polars")
-    if not len(batch):
-        return polars.DataFrame()
-    rows = np.repeat(np.arange(len(batch)), [len(one) for one in batch])
-    names = polars.Series("track_id", batch.track_ids).gather(rows)
-    return _polars(batch, ("track_id",)).select(names, polars.all())
 
 
 _STATE, _MEASURE = ("state",), ("measure",)

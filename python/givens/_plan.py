@@ -11,6 +11,7 @@ import numpy as np
 
 from givens import _native
 from givens._arrays import Array
+from givens._capsules import framed
 from givens._clock import Clock, Times, clock_of
 from givens._dynamics import Parametric
 from givens._given import Given, each_of, parameters_by_run, split
@@ -89,6 +90,7 @@ def plan(
     options: Mapping[str, Any],
 ) -> tuple[list[Track], bool]:
     """The tracks to run, and whether they are a batch; everything is checked."""
+    t, z, u, noise = framed("t", t), framed("z", z), framed("u", u), framed("noise", noise)
     plain = join(model, sensors)
     choice = choose(model, plain, method, options)
     if isinstance(t, (str, os.PathLike)):

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from givens._arrays import Array, shape_error
+from givens._capsules import framed
 from givens._frames import numbers_by_name
 from givens._lazy import wanted
 from givens._names import known_name
@@ -46,7 +47,7 @@ def places_of(state: tuple[str, ...], plane: tuple[str, str]) -> tuple[int, int]
 
 def truth_of(one: Estimates, truth: Any, argument: str = "truth") -> Array:
     """True states of the rows of a run; those behind its failure are left out."""
-    known = numbers_by_name("truth", truth, one.state, "state")
+    known = numbers_by_name("truth", framed("truth", truth), one.state, "state")
     rows, n = one.__dict__["_rows"], len(one.state)
     if known.shape == (rows,) and n == 1:
         known = known.reshape(-1, 1)

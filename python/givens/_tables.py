@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import numpy as np
@@ -29,11 +29,24 @@ def is_table(value: object) -> bool:
     return frame or hasattr(value, "column_names") or hasattr(value, "fetchnumpy")
 
 
-def _columns(table: Any) -> dict[str, Any]:
-    if hasattr(table, "fetchnumpy"):
-        table = table.fetchnumpy()
-    names = table if isinstance(table, Mapping) else columns_of(table)
-    return _index(table) | {str(name): table[name] for name in names}
+class _Columns(Mapping[str, Any]):
+    """The columns of a table, each taken out when it is asked for."""
+
+    def __init__(self, table: Any) -> None:
+        if hasattr(table, "fetchnumpy"):
+            table = table.fetchnumpy()
+        self._table = table
+        self._index = _index(table)
+        self._names = {str(name): name for name in (table if isinstance(table, Mapping) else columns_of(table))}
+
+    def __getitem__(self, name: str) -> Any:
+        return self._table[self._names[name]] if name in self._names else self._index[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter([*(name for name in self._index if name not in self._names), *self._names])
+
+    def __len__(self) -> int:
+        return len(self._index.keys() | self._names.keys())
 
 
 def _index(table: Any) -> dict[str, Any]:
@@ -68,7 +81,7 @@ def _words(column: Any) -> list[Any]:
 
 def rows_by_track(joined: Joined, table: Any) -> list[dict[str, Any]]:
     """The rows of each track, in the order in which tracks appear: `id`, `time`, `z`, `u`."""
-    columns = _columns(table)
+    columns = _Columns(table)
     time = next((columns[name] for name in _TIME if name in columns), None)
     if time is None:
         raise InputError(

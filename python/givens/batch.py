@@ -21,8 +21,8 @@ from givens.estimates import Estimates, step_error
 __all__ = ["Batch"]
 
 
-class Batch(Stacked, Sequence[Estimates]):
-    """The estimates of several trajectories, in the order of the data.
+class Batch(Stacked):
+    """The estimates of several trajectories, in the order of the data: a sequence of `Estimates`.
 
     The arrays of all tracks are those of `Estimates` with one dimension more in front, and cannot be written to; behind
     the failure of a track they are NaN, and `nis_dof` is 0. Tracks with different numbers of rows have none.
@@ -57,6 +57,8 @@ class Batch(Stacked, Sequence[Estimates]):
     >>> batch.mean.shape
     (5, 3, 1)
     """
+
+    # no `collections.abc.Sequence`: polars would take one apart before it asks for `__arrow_c_stream__`
 
     def __init__(self, estimates: Sequence[Estimates], failed: Sequence[StepError] = ()) -> None:
         self._estimates = tuple(estimates)
@@ -174,10 +176,16 @@ class Batch(Stacked, Sequence[Estimates]):
         return batch_to_pandas(self)
 
     def to_polars(self) -> Any:
-        """One table, with the column ``track_id``."""
-        from givens._export import batch_to_polars
+        """One table, with the column ``track_id``; what is not known is null."""
+        from givens._export import to_polars
 
-        return batch_to_polars(self)
+        return to_polars(self)
+
+    def __arrow_c_stream__(self, requested_schema: object = None) -> object:
+        """The table of `to_polars` for whatever reads Arrow: ``pyarrow.table(batch)``, a query of duckdb."""
+        from givens._capsules import batch_stream
+
+        return batch_stream(self)
 
     def to_xarray(self) -> Any:
         """A data set with the dimensions track, time, state, state2, measure, measure2.

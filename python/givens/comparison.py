@@ -12,6 +12,7 @@ import numpy.typing as npt
 
 from givens import _native
 from givens._arrays import Array
+from givens._capsules import framed
 from givens._frames import numbers_by_name
 from givens._names import known_name
 from givens._scalars import mapping
@@ -155,6 +156,8 @@ def compare(
         raise InputError(f"`methods` is {methods!r}", argument="methods", remedy='write methods=["ekf", "sr-ckf"]')
     for name in options:
         known_name("options", name, tuple(methods), "method among `methods`")
+    # what lends its columns may do so only once
+    t, z, truth = framed("t", t), framed("z", z), framed("truth", truth)
     found = Comparison()
     for name in methods:
         own = mapping("options", options.get(name), 'options={"sr-ukf": {"kappa": 0}}')

@@ -222,10 +222,16 @@ class Estimates:
         return to_pandas(self)
 
     def to_polars(self) -> Any:
-        """A table with the columns of the command's CSV."""
+        """A table with the columns of the command's CSV; what is not known is null."""
         from givens._export import to_polars
 
         return to_polars(self)
+
+    def __arrow_c_stream__(self, requested_schema: object = None) -> object:
+        """The table of `to_polars` for whatever reads Arrow: ``pyarrow.table(est)``, a query of duckdb."""
+        from givens._capsules import stream
+
+        return stream(self)
 
     def to_xarray(self) -> Any:
         """A data set with the dimensions time, state, state2, measure, measure2."""

@@ -47,8 +47,8 @@ def filter(
         What is measured; None for a model file, which has its own.
     t : array_like, shape (rows,)
         Times in order: numbers, durations, which are taken as seconds, or dates, of which seconds since `t0` are taken;
-        dates have a time zone all of them, or none. Or a table in place of `t` and `z`: of pandas, polars, pyarrow or
-        duckdb, or a dict of arrays, with the columns ``time`` (in pandas, the index may be it), one for each measure,
+        dates have a time zone all of them, or none. Or a table in place of `t` and `z`: of pandas, polars, pyarrow,
+        duckdb or whatever has ``__arrow_c_stream__``, or a dict of arrays, with the columns ``time`` (in pandas, the index may be it), one for each measure,
         and, if there are such, ``sensor``, ``track_id`` and ``u_…`` for controls. For a model file also the path of a
         CSV file.
     z : array_like, shape (rows, d)

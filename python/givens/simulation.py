@@ -10,6 +10,7 @@ import numpy as np
 
 from givens import _native
 from givens._arrays import Array
+from givens._capsules import framed
 from givens._clock import clock_of
 from givens._join import join
 from givens._plan import read_prior, with_parameters
@@ -92,6 +93,7 @@ def simulate(
     Simulated(t=(3,), x=(100, 3, 2), z=(100, 3, 1))
     """
     model, sensors = with_parameters(model, sensors, mapping("params", params, "params={name: value}"))
+    t, u, noise = framed("t", t), framed("u", u), framed("noise", noise)
     plain = join(model, sensors)
     widths = {name: place.stop - place.start for name, place in plain.sensors.items()}
     joined = join(model, sensors, noise_shapes(noise, widths)) if noise is not None else plain

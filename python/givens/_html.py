@@ -12,8 +12,9 @@ import numpy as np
 if TYPE_CHECKING:
     from givens.batch import Batch
     from givens.estimates import Estimates
+    from givens.gaussian import Gaussian
 
-__all__ = ["batch_html", "estimates_html"]
+__all__ = ["batch_html", "estimates_html", "gaussian_html"]
 
 _SHOWN = 6
 
@@ -35,6 +36,21 @@ def batch_html(batch: Batch) -> str:
     rows, total = sum(map(len, batch)), float(np.sum(batch.total_log_likelihood))
     words = f"{len(batch)} tracks, {rows} rows, {len(batch.failed)} failed; log-likelihood {total:.4f}; "
     return f"{table}<p>{escape(words + str(batch.consistency()))}</p>"
+
+
+def gaussian_html(one: Gaussian) -> str:
+    """A table of means and standard deviations, with correlations where there are any."""
+    n, std = len(one), one.std
+    known = np.where(std > 0, std, 1.0)
+    correlation = one.cov / np.outer(known, known)
+    related = bool((correlation - np.diag(np.diag(correlation))).any())
+    header = ("", "mean", "std", *(f"corr. {j}" for j in range(n - 1) if related))
+
+    def cells(i: int) -> list[str]:
+        below = [f"{correlation[i, j]:.3g}" if j < i else "" for j in range(n - 1) if related]
+        return [str(i), f"{one.mean[i]:.6g}", f"{std[i]:.3g}", *below]
+
+    return _table(header, n, cells)
 
 
 def _table(header: Sequence[str], rows: int, cells: Callable[[int], Iterable[str]]) -> str:

@@ -134,6 +134,11 @@ class Gaussian:
             return f"Gaussian({mean}, std={np.array2string(self.std, separator=', ')})"
         return f"Gaussian({mean}, cov={np.array2string(self._cov, separator=', ', prefix='Gaussian(')})"
 
+    def _repr_html_(self) -> str:
+        from givens._html import gaussian_html
+
+        return gaussian_html(self)
+
 
 def _variances(std: Any, n: int) -> Array:
     array = np.atleast_1d(numbers("std", std))

@@ -48,9 +48,9 @@ def filter(
     t : array_like, shape (rows,)
         Times in order: numbers, durations, which are taken as seconds, or dates, of which seconds since `t0` are taken;
         dates have a time zone all of them, or none. Or a table in place of `t` and `z`: of pandas, polars, pyarrow,
-        duckdb or whatever has ``__arrow_c_stream__``, or a dict of arrays, with the columns ``time`` (in pandas, the index may be it), one for each measure,
-        and, if there are such, ``sensor``, ``track_id`` and ``u_…`` for controls. For a model file also the path of a
-        CSV file.
+        duckdb or whatever has ``__arrow_c_stream__``, or a dict of arrays, with the columns ``time`` (in pandas, the
+        index may be it), one for each measure, and, if there are such, ``sensor``, ``track_id`` and ``u_…`` for
+        controls. For a model file also the path of a CSV file.
     z : array_like, shape (rows, d)
         Measurements, those of several sensors side by side in their order; NaN and masked are missing. The columns of a
         frame are taken by the names of the measures. Or a table by sensor: ``{"radar": (rows, 3), …}``. A row without

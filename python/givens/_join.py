@@ -13,6 +13,7 @@ from givens._arrays import Array
 from givens._called import slots
 from givens._dynamics import Dynamics
 from givens._native import Graph
+from givens._scalars import shown
 from givens.errors import InputError
 from givens.model_file import ModelFile
 from givens.sensor import Sensor
@@ -53,7 +54,7 @@ def sensors_of(sensors: Any) -> tuple[Sensor, ...]:
         )
     for k, sensor in enumerate(found):
         if not isinstance(sensor, Sensor):
-            raise InputError(f"`sensors` holds {sensor!r}, which is no Sensor", argument="sensors")
+            raise InputError(f"`sensors` holds {shown(sensor)}, which is no Sensor", argument="sensors")
         if any(sensor.name == other.name for other in found[:k]):
             raise InputError(
                 f"two sensors are called `{sensor.name}`",

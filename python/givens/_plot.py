@@ -11,6 +11,7 @@ from givens._capsules import framed
 from givens._frames import numbers_by_name
 from givens._lazy import wanted
 from givens._names import known_name
+from givens._scalars import shown
 from givens.errors import InputError
 
 if TYPE_CHECKING:
@@ -39,7 +40,7 @@ def places_of(state: tuple[str, ...], plane: tuple[str, str]) -> tuple[int, int]
     """Where the states of a plane stand."""
     if not (isinstance(plane, (tuple, list)) and len(plane) == 2):
         raise InputError(
-            f"`plane` is {plane!r}, not two states", argument="plane", remedy=f"name two of {', '.join(state)}"
+            f"`plane` is {shown(plane)}, not two states", argument="plane", remedy=f"name two of {', '.join(state)}"
         )
     i, j = (state.index(known_name("plane", name, state, "state")) for name in plane)
     return i, j

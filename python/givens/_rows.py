@@ -63,7 +63,7 @@ def controls_of(joined: Joined, u: Any, rows: int) -> Array | None:
         missing = [name for name in names if name not in u]
         if missing:
             raise InputError(f"`u` has no entry `{missing[0]}`", argument="u", component=missing[0])
-        return np.stack([np.broadcast_to(numbers(f"u[{name!r}]", u[name]), (rows,)) for name in names], axis=1)
+        return np.stack([_control(f"u[{name!r}]", u[name], rows) for name in names], axis=1)
     array = numbers_by_name("u", u, names, "control", "u_")
     if array.ndim == 1 and len(names) == 1:
         array = array.reshape(-1, 1)
@@ -71,6 +71,13 @@ def controls_of(joined: Joined, u: Any, rows: int) -> Array | None:
         wanted = f"({rows}, {len(names)}): one column for each of {', '.join(names)}"
         raise shape_error("u", array.shape, wanted, "constant controls: u={name: number}")
     return array
+
+
+def _control(argument: str, given: Any, rows: int) -> Array:
+    array = numbers(argument, given)
+    if array.shape not in ((), (1,), (rows,)):
+        raise shape_error(argument, array.shape, f"({rows},)", "give one number for each time, or one for all")
+    return np.broadcast_to(array, (rows,))
 
 
 def noise_shapes(noise: Any, sensors: Mapping[str, int]) -> dict[str, tuple[int, ...]]:

@@ -22,8 +22,16 @@ def draws(one: Estimates, n: int, seed: int, number: int = 0) -> Array:
     if one.__dict__["_whole"]:
         return _paths(one, n, seed, number)
     normal = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(number,)))
-    drawn: Array = one.mean + np.einsum("kij,skj->ski", one.factor, normal.standard_normal((n, *one.mean.shape)))
-    return drawn
+    try:
+        spread: Array = np.einsum("kij,skj->ski", one.factor, normal.standard_normal((n, *one.mean.shape)))
+    except MemoryError:
+        raise InputError(
+            f"`n` is {n}: they need {8 * n * one.mean.size:.3e} bytes at once, more than there is memory for",
+            argument="n",
+            remedy="draw fewer at a time, each time with another seed",
+        ) from None
+    spread += one.mean
+    return spread
 
 
 def _paths(one: Estimates, n: int, seed: int, number: int) -> Array:

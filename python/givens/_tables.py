@@ -12,6 +12,7 @@ from givens._dates import Dates, dates_of, seconds_of
 from givens._frames import columns_of
 from givens._join import Joined
 from givens._names import known_name, listed
+from givens._scalars import shown
 from givens.errors import InputError
 
 __all__ = ["is_table", "rows_by_track"]
@@ -109,7 +110,15 @@ def rows_by_track(joined: Joined, table: Any) -> list[dict[str, Any]]:
                 row=row,
                 remedy="name the track of each row, or leave such rows out",
             )
-        found.setdefault(track, []).append(row)
+        try:
+            found.setdefault(track, []).append(row)
+        except TypeError:
+            raise InputError(
+                f"`{_TRACK}` is {shown(track)} in row {row}, which is no name",
+                argument=_TRACK,
+                row=row,
+                remedy="name tracks by words or whole numbers",
+            ) from None
     return [
         {"id": track, "time": times[of], "z": z[of], "u": None if u is None else u[of]} for track, of in found.items()
     ]
@@ -141,7 +150,7 @@ def _measures(joined: Joined, columns: Mapping[str, Any], rows: int) -> Array:
             remedy="name the columns as the measures are named",
         )
     if _SENSOR in columns:
-        of = [None if name is None else str(name) for name in _words(columns[_SENSOR])]
+        of = [name if name is None or isinstance(name, str) else shown(name) for name in _words(columns[_SENSOR])]
         for sensor in {name for name in of if name}:
             known_name("sensor", sensor, tuple(joined.sensors), "sensor")
         for sensor, place in joined.sensors.items():

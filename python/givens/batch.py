@@ -12,7 +12,7 @@ from givens import _native
 from givens._arrays import Array
 from givens._plan import Goal, Track
 from givens._sampling import draws
-from givens._scalars import seed_of, threads_of, whole
+from givens._scalars import seed_of, shown, threads_of, whole
 from givens._stack import Stacked, stacked
 from givens.consistency import Consistency, consistency_of
 from givens.errors import InputError, StepError
@@ -109,9 +109,12 @@ class Batch(Stacked):
 
     def track(self, name: Any) -> Estimates:
         """The estimates of a track by its name."""
-        if name not in self.track_ids:
-            raise InputError(f"there is no track {name!r}", argument="name", remedy=f"there are {self.track_ids[:10]}")
-        return self._estimates[self.track_ids.index(name)]
+        try:
+            return self._estimates[self.track_ids.index(name)]
+        except ValueError:
+            raise InputError(
+                f"there is no track {shown(name)}", argument="name", remedy=f"there are {self.track_ids[:10]}"
+            ) from None
 
     @property
     def total_log_likelihood(self) -> Array:

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from givens._plan import Goal, Track, plan
-from givens._scalars import threads_of
+from givens._scalars import shown, threads_of
 from givens.batch import Batch
 from givens.errors import InputError
 from givens.estimates import Estimates, step_error
@@ -168,7 +168,9 @@ def smooth(
     goals = [Goal("interval")] * len(tracks)
     if lag is not None:
         if not isinstance(lag, (int, np.integer)) or isinstance(lag, bool) or lag < 0:
-            raise InputError(f"`lag` is {lag!r}", argument="lag", remedy="a lag is a whole number of rows, from 0 up")
+            raise InputError(
+                f"`lag` is {shown(lag)}", argument="lag", remedy="a lag is a whole number of rows, from 0 up"
+            )
         # longer than any data is as long as the data
         goals = [Goal("lag", float(min(lag, 2**53)))] * len(tracks)
     if point is not None:

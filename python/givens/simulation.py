@@ -15,7 +15,7 @@ from givens._clock import clock_of
 from givens._join import join
 from givens._plan import read_prior, with_parameters
 from givens._rows import controls_of, noise_shapes, with_noise
-from givens._scalars import LAST_COUNT, mapping, seed_of, threads_of, whole
+from givens._scalars import MOST_RUNS, mapping, seed_of, threads_of, whole
 from givens.gaussian import Gaussian
 
 __all__ = ["Simulated", "simulate"]
@@ -101,7 +101,7 @@ def simulate(
     start = None if t0 is None else clock.moment("t0", t0)
     times = clock.times("t", t)
     time = times.seconds
-    drawn_from, count = seed_of(seed), 1 if runs is None else whole("runs", runs, 0, LAST_COUNT)
+    drawn_from, count = seed_of(seed), 1 if runs is None else whole("runs", runs, 0, MOST_RUNS)
     z = np.zeros((len(time), len(joined.measures)))
     controls = with_noise(joined, controls_of(joined, u, len(time)), noise, z)
     mean, cov = read_prior(model, prior, joined.states)

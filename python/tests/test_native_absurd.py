@@ -11,7 +11,7 @@ import pytest
 from native_models import MEAN, SPRING, STD, STEPS, TIME, Z, choose
 
 from givens import _native as native
-from givens.errors import GivensError
+from givens.errors import GivensError, InputError
 
 NAN, INF = np.nan, np.inf
 #: What refuses an argument: never a panic, which is no `Exception`.
@@ -256,6 +256,16 @@ def test_graphs_refuse_absurd_arguments() -> None:
     assert np.isnan(graph.evaluate([x], empty, 0.0, 0.0, empty, empty)).all()
     refused(lambda: graph.evaluate([99], empty, 0.0, 0.0, empty, empty), "there is no node 99")
     np.testing.assert_array_equal(graph.evaluate([x], np.arange(4.0)[::2], 0.0, 0.0, empty, empty), [0.0])
+
+
+def test_a_graph_that_is_full_is_told() -> None:
+    graph = native.Graph()
+    with pytest.raises(InputError) as caught:
+        for k in range(100_001):
+            graph.constant(k)
+    assert str(caught.value) == (
+        "the expressions have more than 100000 distinct operations\n  help: shorten them, or pass trace=False"
+    )
 
 
 def test_model_files_refuse_absurd_arguments() -> None:

@@ -96,7 +96,18 @@ def _fields(joined: Joined) -> tuple[Any, ...]:
 
 
 def _values(model: Dynamics, sensors: Sequence[Sensor]) -> list[Array]:
-    return [value.ravel() for owner in (model, *sensors) for value in owner._parameters.values()]
+    values = []
+    for owner in (model, *sensors):
+        for name, value in owner._parameters.items():
+            if not np.isfinite(value).all():
+                raise InputError(
+                    f"the parameter `{name}` is {value[~np.isfinite(value)][0]}, not a finite number",
+                    argument="parameters",
+                    component=name,
+                    remedy="write it as a constant into the function, or give a finite number",
+                )
+            values.append(value.ravel())
+    return values
 
 
 def _of_file(model: ModelFile, sensors: Any, noise: Mapping[str, Any]) -> Joined:

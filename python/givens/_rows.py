@@ -48,6 +48,21 @@ def _rows(argument: str, values: Any, rows: int, columns: tuple[str, ...]) -> Ar
 
 def controls_of(joined: Joined, u: Any, rows: int) -> Array | None:
     """Controls (rows, c), each holding from its row to the next; None for a model without any."""
+    found = _controls(joined, u, rows)
+    if found is not None and not np.isfinite(found).all():
+        row, at = map(int, np.argwhere(~np.isfinite(found))[0])
+        name = joined.controls[at]
+        raise InputError(
+            f"`u` of `{name}` is {found[row, at]} in row {row}",
+            argument="u",
+            row=row,
+            component=name,
+            remedy="controls are always known",
+        )
+    return found
+
+
+def _controls(joined: Joined, u: Any, rows: int) -> Array | None:
     names = joined.controls
     if not names:
         if u is None:
@@ -123,10 +138,10 @@ def with_noise(joined: Joined, u: Array | None, noise: Any, z: Array) -> Array |
         if wrong.any():
             row, at = map(int, np.argwhere(wrong)[0])
             raise InputError(
-                f"`{argument}` is {flat[row, at]} in row {row}",
+                f"`{argument}` of `{measures[at // (flat.shape[1] // len(measures))]}` is {flat[row, at]} in row {row}",
                 argument="noise",
                 row=row,
-                component=name,
+                component=measures[at // (flat.shape[1] // len(measures))],
                 remedy="standard deviations are finite, from 0 up" if len(shape) == 1 else "give finite numbers",
             )
         stacked.append(flat)

@@ -62,9 +62,7 @@ class Gaussian:
             raise shape_error("mean", middle.shape, "(n,)", "a vector has one dimension: mean=np.ravel(…)")
         if not np.isfinite(middle).all():
             at = int(np.flatnonzero(~np.isfinite(middle))[0])
-            raise InputError(
-                f"`mean` is {middle[at]} at component {at}", argument="mean", remedy="give a finite number"
-            )
+            raise InputError(f"`mean[{at}]` is {middle[at]}", argument="mean", remedy="give a finite number")
         if (cov is None) == (std is None):
             said = "neither `cov` nor `std`" if cov is None else "`cov` and `std` at once"
             raise InputError(
@@ -148,7 +146,7 @@ def _variances(std: Any, n: int) -> Array:
     if wrong.any():
         at = int(np.flatnonzero(wrong)[0])
         raise InputError(
-            f"`std` is {array[at]} at component {at}",
+            f"`std[{at}]` is {array[at]}",
             argument="std",
             remedy="standard deviations are finite, from 0 up",
         )
@@ -157,7 +155,7 @@ def _variances(std: Any, n: int) -> Array:
     if not np.isfinite(squares).all():
         at = int(np.flatnonzero(~np.isfinite(squares))[0])
         raise InputError(
-            f"`std` is {array[at]} at component {at}, whose square is no finite number",
+            f"`std[{at}]` is {array[at]}, whose square is no finite number",
             argument="std",
             remedy="measure the state in a larger unit",
         )
@@ -168,7 +166,7 @@ def _covariance(cov: Any, n: int) -> Array:
     matrix = square("cov", np.reshape(cov, (1, 1)) if n == 1 and np.size(cov) == 1 else cov, n)
     if not np.isfinite(matrix).all():
         i, j = np.argwhere(~np.isfinite(matrix))[0]
-        raise InputError(f"`cov` is {matrix[i, j]} at [{i}, {j}]", argument="cov", remedy="give a finite number")
+        raise InputError(f"`cov[{i}, {j}]` is {matrix[i, j]}", argument="cov", remedy="give a finite number")
     apart = first_asymmetry(matrix)
     if apart is not None:
         i, j = apart
@@ -180,7 +178,7 @@ def _covariance(cov: Any, n: int) -> Array:
     failed = int(lower_factor(matrix)[1])
     if failed >= 0:
         raise InputError(
-            f"`cov` is no covariance: its pivot {failed} is negative",
+            f"`cov` is no covariance: pivot {failed + 1} of {n} is negative",
             argument="cov",
             remedy="variances are from 0 up and correlations from -1 to 1; were standard deviations meant, write std=…",
         )

@@ -167,7 +167,7 @@ impl Filter {
         let mut own = free_mut(slf)?;
         let u = shaped("u", &u, &[own.model().controls()])?;
         if let Some(i) = u.iter().position(|u| !u.is_finite()) {
-            return Err(Input::new("u", format!("control {i} is {}, not a finite number", u[i])).into());
+            return Err(Input::new("u", format!("`u[{i}]` is {}, not a finite number", u[i])).into());
         }
         own.step(slf.py(), |filter| filter.set_controls(&u))
     }

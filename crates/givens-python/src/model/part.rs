@@ -2,7 +2,7 @@
 
 use core::any::TypeId;
 
-use givens::model::{At, Linear, linear_by_duals};
+use givens::model::{At, AtPoint, Linear, linear_by_duals};
 use givens::scalar::Real;
 use givens_expr::{Inputs, Program};
 
@@ -125,5 +125,11 @@ impl Part {
             return;
         }
         linear_by_duals(d, at, x, s, out, scratch, self);
+    }
+}
+
+impl AtPoint for Part {
+    fn at_point<T: Real>(&self, at: &At<T>, x: &[T], out: &mut [T]) {
+        self.one(at, x, out);
     }
 }

@@ -3,8 +3,10 @@
 Every page that holds code is executed, and a page that fails ends the build.
 """
 
+import os
 import re
 from importlib import metadata
+from pathlib import Path
 from typing import Any
 
 project = "givens"
@@ -23,7 +25,7 @@ extensions = [
     "sphinx.ext.napoleon",
     "sphinx.ext.mathjax",
 ]
-exclude_patterns = ["_build", "README.md"]
+exclude_patterns = ["_build", "_jupyter", "README.md"]
 
 # Pages are run afresh each time: a page that was right once is no proof.
 nb_execution_mode = "force"
@@ -31,6 +33,10 @@ nb_execution_raise_on_error = True
 nb_execution_timeout = 60
 nb_execution_excludepatterns = ["index.md", "api/*", "guide/index.md", "examples/index.md"]
 nb_merge_streams = True
+# Our kernel logs errors only: the usual one warns for each page that what it says to this machine is not encrypted.
+os.environ["JUPYTER_PATH"] = os.pathsep.join(
+    [str(Path(__file__).parent / "_jupyter"), *filter(None, [os.environ.get("JUPYTER_PATH")])]
+)
 nb_render_markdown_format = "myst"
 nb_number_source_lines = False
 myst_enable_extensions = ["dollarmath", "colon_fence"]

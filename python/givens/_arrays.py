@@ -106,12 +106,17 @@ def numbers(argument: str, value: Any, called: str | None = None) -> Array:
         if array.dtype.kind == "O":
             array = _of_objects(array)
         if array.dtype.kind in "biuf":
-            return np.asarray(array, dtype=np.float64)
+            # what is too large becomes infinite, which whoever asks refuses
+            with np.errstate(over="ignore"):
+                return np.asarray(array, dtype=np.float64)
         said, remedy = _OTHERS.get(array.dtype.kind, (said, remedy))
     except GivensError:
         raise
     except (TypeError, ValueError, OverflowError) as error:
-        said = "parts of different lengths" if "inhomogeneous" in str(error) else said
+        if isinstance(error, OverflowError):
+            said, remedy = "a number beyond 1.8e308", "measure it in a larger unit"
+        elif "inhomogeneous" in str(error):
+            said = "parts of different lengths"
     raise InputError(
         f"{called or f'`{argument}`'} is not an array of real numbers: it holds {said}",
         argument=argument,

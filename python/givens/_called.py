@@ -11,6 +11,7 @@ import numpy as np
 from givens._arrays import Array
 from givens._compiled import address_of, is_compiled
 from givens._native import Function
+from givens._scalars import shown
 from givens._trace.arguments import parameter_value, read_arguments
 from givens.errors import InputError
 
@@ -91,7 +92,7 @@ class _Caller:
         try:
             given = np.asarray(result)
         except ValueError:
-            raise self.wrong(f"gave {result!r}, which is no array of numbers", x) from None
+            raise self.wrong(f"gave {shown(result)}, which is no array of numbers", x) from None
         if given.dtype.kind not in "fiub":
             given = self.real(given, x)
         if len(self.called.names) == 1 and given.shape == x.shape[1:]:

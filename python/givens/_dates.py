@@ -30,6 +30,10 @@ class Dates:
     def __getitem__(self, rows: list[int]) -> Dates:
         return Dates(self.array[rows], self.aware)
 
+    def to_numpy(self) -> np.ndarray[Any, Any]:
+        """The dates without their zone."""
+        return self.array
+
 
 def dates_of(argument: str, times: Any) -> Dates | None:
     """Times that are dates, none of them null and all of them told by nanoseconds; None for anything else."""

@@ -14,21 +14,21 @@ if TYPE_CHECKING:
     from givens.batch import Batch
     from givens.estimates import Estimates
 
-__all__ = ["batch_to_pandas", "batch_to_polars", "to_pandas", "to_polars", "to_xarray"]
+__all__ = ["aware", "batch_to_pandas", "batch_to_xarray", "columns", "to_pandas", "to_polars", "to_xarray"]
 
 _LAST = ("nis", "nis_dof", "log_likelihood")
 
 
-def _columns(runs: Sequence[Estimates], first: Iterable[str] = ()) -> dict[str, Any]:
+def columns(runs: Sequence[Estimates], first: Iterable[str] = ()) -> dict[str, Any]:
     """The columns of the command's CSV, of runs below each other; `first` are those that the caller adds."""
     state = runs[0].state
     _distinct(state, ("time", *first))
     # one array for each column: tables of single runs would cost more than all their rows
     mean, std = (np.concatenate([getattr(one, name) for one in runs]) for name in ("mean", "std"))
-    columns: dict[str, Any] = {"time": np.concatenate([one.time for one in runs])}
-    columns |= {name: mean[:, i] for i, name in enumerate(state)}
-    columns |= {f"{name}_std": std[:, i] for i, name in enumerate(state)}
-    return columns | {name: np.concatenate([getattr(one, name) for one in runs]) for name in _LAST}
+    found: dict[str, Any] = {"time": np.concatenate([one.time for one in runs])}
+    found |= {name: mean[:, i] for i, name in enumerate(state)}
+    found |= {f"{name}_std": std[:, i] for i, name in enumerate(state)}
+    return found | {name: np.concatenate([getattr(one, name) for one in runs]) for name in _LAST}
 
 
 def _distinct(state: Sequence[str], first: Iterable[str]) -> None:
@@ -44,30 +44,16 @@ def _distinct(state: Sequence[str], first: Iterable[str]) -> None:
             )
 
 
-def _aware(runs: Sequence[Estimates]) -> bool:
+def aware(runs: Sequence[Estimates]) -> bool:
+    """Whether the times are dates that had a time zone."""
     return any(one.__dict__["_aware"] for one in runs)
 
 
 def _pandas(runs: Sequence[Estimates], first: Iterable[str] = ()) -> Any:
-    frame = wanted("pandas").DataFrame(_columns(runs, first))
-    if _aware(runs):
+    frame = wanted("pandas").DataFrame(columns(runs, first))
+    if aware(runs):
         frame["time"] = frame["time"].dt.tz_localize("UTC")
     return frame
-
-
-def _polars(runs: Sequence[Estimates], first: Iterable[str] = ()) -> Any:
-    polars = wanted("polars")
-    columns = _columns(runs, first)
-    if columns["time"].dtype.kind == "M" and np.datetime_data(columns["time"].dtype)[0] not in _OF_POLARS:
-        columns["time"] = columns["time"].astype("datetime64[ms]")
-    frame = polars.DataFrame(columns)
-    if _aware(runs):
-        frame = frame.with_columns(polars.col("time").dt.replace_time_zone("UTC"))
-    return frame
-
-
-#: Units of dates that polars has.
-_OF_POLARS = ("D", "ms", "us", "ns")
 
 
 def to_pandas(one: Estimates) -> Any:
@@ -75,14 +61,9 @@ def to_pandas(one: Estimates) -> Any:
     return _pandas([one]).set_index("time")
 
 
-def to_polars(one: Estimates) -> Any:
+def to_polars(of: Estimates | Batch) -> Any:
     """See `Estimates.to_polars`."""
-    return _polars([one])
-
-
-def _names(batch: Batch) -> list[Any]:
-    """The track of each row."""
-    return [name for name, one in zip(batch.track_ids, batch, strict=True) for _ in range(len(one))]
+    return wanted("polars").DataFrame(of)
 
 
 def batch_to_pandas(batch: Batch) -> Any:
@@ -90,27 +71,43 @@ def batch_to_pandas(batch: Batch) -> Any:
     pandas = wanted("pandas")
     if not len(batch):
         return pandas.DataFrame()
-    return _pandas(batch, ("track_id",)).assign(track_id=_names(batch)).set_index(["track_id", "time"])
+    frame = _pandas(tuple(batch), ("track_id",))
+    names = pandas.Series(batch.track_ids).repeat([len(one) for one in batch])
+    frame.insert(0, "track_id", names.to_numpy())
+    return frame.set_index(["track_id", "time"])
 
 
-def batch_to_polars(batch: Batch) -> Any:
-    """See `Batch.to_polars`."""
-    polars = wanted("polars")
-    if not len(batch):
-        return polars.DataFrame()
-    names = polars.Series("track_id", _names(batch))
-    return _polars(batch, ("track_id",)).select(names, polars.all())
+_STATE, _MEASURE = ("state",), ("measure",)
+#: The arrays of a data set, with their dimensions behind time.
+_DIMS: dict[str, tuple[str, ...]] = {
+    **dict.fromkeys(("mean", "std", "filtered_mean", "predicted_mean"), _STATE),
+    **dict.fromkeys(("cov", "filtered_cov", "predicted_cov"), (*_STATE, "state2")),
+    "innovation": _MEASURE,
+    "innovation_cov": (*_MEASURE, "measure2"),
+    **dict.fromkeys(_LAST, ()),
+}
+
+
+def _xarray(of: Estimates | Batch, one: Estimates, front: tuple[str, ...], coords: dict[str, Any]) -> Any:
+    xarray = wanted("xarray")
+    names, measures = list(one.state), list(one.measures)
+    coords |= {"state": names, "state2": names, "measure": measures, "measure2": measures}
+    data = {name: ((*front, *dims), getattr(of, name)) for name, dims in _DIMS.items()}
+    return xarray.Dataset(data, coords, {"method": one.method, "smoothed": int(one.is_smoothed)})
 
 
 def to_xarray(one: Estimates) -> Any:
     """See `Estimates.to_xarray`."""
+    return _xarray(one, one, ("time",), {"time": np.asarray(one.time)})
+
+
+def batch_to_xarray(batch: Batch) -> Any:
+    """See `Batch.to_xarray`."""
     xarray = wanted("xarray")
-    state, measure = ("time", "state"), ("time", "measure")
-    dims: dict[str, tuple[str, ...]] = {"mean": state, "std": state, "filtered_mean": state, "predicted_mean": state}
-    dims |= dict.fromkeys(("cov", "filtered_cov", "predicted_cov"), (*state, "state2"))
-    dims |= {"innovation": measure, "innovation_cov": (*measure, "measure2")}
-    dims |= dict.fromkeys(("nis", "nis_dof", "log_likelihood"), ("time",))
-    names, measures = list(one.state), list(one.measures)
-    coords = {"time": np.asarray(one.time), "state": names, "state2": names, "measure": measures, "measure2": measures}
-    data = {name: (of, getattr(one, name)) for name, of in dims.items()}
-    return xarray.Dataset(data, coords, {"method": one.method, "smoothed": int(one.is_smoothed)})
+    if not len(batch):
+        return xarray.Dataset()
+    longest = max(batch, key=len)
+    alike = all(np.array_equal(one.time, longest.time[: len(one)]) for one in batch)
+    coords: dict[str, Any] = {"track": batch.track_ids}
+    coords["time"] = np.asarray(longest.time) if alike else (("track", "row"), np.asarray(batch.time))
+    return _xarray(batch, longest, ("track", "time" if alike else "row"), coords)

@@ -14,6 +14,7 @@ from givens._called import slots
 from givens._dynamics import Dynamics
 from givens._native import Graph
 from givens._part import Part
+from givens._scalars import shown
 from givens.errors import InputError
 from givens.model_file import ModelFile
 from givens.sensor import Sensor
@@ -57,7 +58,7 @@ def sensors_of(sensors: Any) -> tuple[Sensor, ...]:
         )
     for k, sensor in enumerate(found):
         if not isinstance(sensor, Sensor):
-            raise InputError(f"`sensors` holds {sensor!r}, which is no Sensor", argument="sensors")
+            raise InputError(f"`sensors` holds {shown(sensor)}, which is no Sensor", argument="sensors")
         if any(sensor.name == other.name for other in found[:k]):
             raise InputError(
                 f"two sensors are called `{sensor.name}`",
@@ -99,7 +100,18 @@ def _fields(joined: Joined) -> tuple[Any, ...]:
 
 
 def _values(model: Dynamics, sensors: Sequence[Sensor]) -> list[Array]:
-    return [value.ravel() for owner in (model, *sensors) for value in owner._parameters.values()]
+    values = []
+    for owner in (model, *sensors):
+        for name, value in owner._parameters.items():
+            if not np.isfinite(value).all():
+                raise InputError(
+                    f"the parameter `{name}` is {value[~np.isfinite(value)][0]}, not a finite number",
+                    argument="parameters",
+                    component=name,
+                    remedy="write it as a constant into the function, or give a finite number",
+                )
+            values.append(value.ravel())
+    return values
 
 
 def _of_file(model: ModelFile, sensors: Any, noise: Mapping[str, Any]) -> Joined:

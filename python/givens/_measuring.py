@@ -14,6 +14,7 @@ from givens._covariance import check_covariance
 from givens._dynamics import parameters_of
 from givens._names import known_name, names_of, ordered
 from givens._part import Request, is_function
+from givens._scalars import positive
 from givens._symbolic import is_symbolic
 from givens._trace.arguments import parameter_value, read_arguments
 from givens.errors import InputError
@@ -63,16 +64,12 @@ def _by_name(given: Mapping[str, Any], columns: tuple[str, ...]) -> list[Any]:
 def periods(angles: Any, columns: tuple[str, ...]) -> tuple[float | None, ...]:
     if not isinstance(angles, Mapping):
         angles = dict.fromkeys(names_of("angles", angles, example='["bearing"]'), 2 * math.pi)
-    for name, period in angles.items():
+    for name in angles:
         known_name("angles", name, columns, "measure of this sensor")
-        if not (isinstance(period, (int, float)) and 0 < period < math.inf):
-            raise InputError(
-                f"`angles`: the period of `{name}` is {period!r}",
-                argument="angles",
-                component=name,
-                remedy="a period is longer than 0: 2π of radians, 360 of degrees",
-            )
-    return tuple(float(angles[name]) if name in angles else None for name in columns)
+    remedy = "a period is longer than 0: 2π of radians, 360 of degrees"
+    return tuple(
+        positive("angles", angles[name], remedy, "period", name) if name in angles else None for name in columns
+    )
 
 
 def parameters(given: Mapping[str, Any], noise: str) -> dict[str, Array]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 
+from givens._scalars import shown, text
 from givens.errors import InputError
 
 __all__ = ["known_name", "listed", "names_of"]
@@ -18,11 +19,12 @@ def names_of(argument: str, names: object, *, example: str) -> tuple[str, ...]:
     """The names that an argument lists: words, not empty, each once."""
     words = f"write {argument}={example}"
     if isinstance(names, str) or not isinstance(names, Iterable):
-        raise InputError(f"`{argument}` is {names!r}, not a list of names", argument=argument, remedy=words)
+        raise InputError(f"`{argument}` is {shown(names)}, not a list of names", argument=argument, remedy=words)
     found = tuple(names)
     for name in found:
         if not isinstance(name, str) or not name.strip():
-            raise InputError(f"`{argument}` holds {name!r}, which is no name", argument=argument, remedy=words)
+            raise InputError(f"`{argument}` holds {shown(name)}, which is no name", argument=argument, remedy=words)
+        text(argument, name, "a name", words)
     for k, name in enumerate(found):
         if name in found[:k]:
             raise InputError(
@@ -37,13 +39,14 @@ def known_name(argument: str, name: object, among: Sequence[str], what: str) -> 
         return name
     from difflib import get_close_matches
 
-    close = get_close_matches(str(name), among, 1)
+    word = name if isinstance(name, str) else shown(name)
+    close = get_close_matches(word, among, 1)
     if close:
         remedy = f"did you mean `{close[0]}`?"
     else:
         remedy = f"there {'is' if len(among) == 1 else 'are'} {listed(among)}" if among else "there is none"
     raise InputError(
-        f"`{argument}` names `{name}`, which is no {what}", argument=argument, component=str(name), remedy=remedy
+        f"`{argument}` names `{word}`, which is no {what}", argument=argument, component=word, remedy=remedy
     )
 
 

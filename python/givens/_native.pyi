@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 __all__ = [
+    "ArrowTable",
     "Choice",
     "Estimates",
     "Filter",
@@ -19,6 +20,7 @@ __all__ = [
     "Graph",
     "Model",
     "accuracy",
+    "arrow_stream",
     "consistency",
     "methods",
     "options",
@@ -31,6 +33,7 @@ __all__ = [
 
 _Array = NDArray[np.float64]
 _Kind = Literal["discrete", "continuous"]
+_Column = Literal["number", "whole", "date", "zoned", "duration", "text", "other"]
 _Goal = Literal["filter", "interval", "lag", "point"]
 
 class _SensorParts(TypedDict):
@@ -106,6 +109,27 @@ class _Tracks(TypedDict):
     ignored: list[str]
     has_track_id: bool
     has_sensor: bool
+
+@final
+class ArrowTable:
+    """A table that another library lends by Arrow's PyCapsule protocol."""
+
+    @staticmethod
+    def read(capsule: object) -> ArrowTable:
+        """Reads to its end what the ``__arrow_c_stream__`` of a table gives."""
+
+    def __len__(self) -> int:
+        """Rows."""
+
+    @property
+    def names(self) -> list[str]: ...
+    def column(self, index: int) -> tuple[_Column, str, Any]:
+        """What a column holds, the unit of times, and the values.
+
+        number: float64, NaN where there is null; without a copy, and read-only, if the column is one array of float64
+        without nulls. whole: int64 or uint64. date, zoned (in UTC), duration: int64, −2⁶³ where there is null. text: a
+        list of str and None. other: the name of a type that is not read.
+        """
 
 @final
 class Graph:
@@ -529,6 +553,13 @@ def simulate(
 
     Continuous models move in `substeps` steps for each gap: by the Itô–Taylor scheme of order 1.5, or by Euler and
     Maruyama where the diffusion depends on the state or a function that is called has no derivatives.
+    """
+
+def arrow_stream(columns: Sequence[tuple[str, str, object]], *, utc: bool = False) -> object:
+    """A capsule ``arrow_array_stream`` with one record batch of columns: name, kind and values.
+
+    number: float64 (rows,), null where NaN. whole: int64 (rows,). D, s, ms, us, ns: dates as int64 (rows,) since 1970, in
+    UTC or in no zone. text: a list of str, and int64 that say in how many rows each of them stands.
     """
 
 def consistency(nis: _Array, nis_dof: NDArray[np.int64]) -> _Consistency:

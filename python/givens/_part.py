@@ -12,6 +12,7 @@ from givens._arrays import Array
 from givens._called import Called, called
 from givens._compiled import is_compiled
 from givens._native import Function, Graph
+from givens._scalars import shown
 from givens._symbolic import is_symbolic, of_sympy
 from givens._trace.arguments import Arguments, read_arguments
 from givens._trace.place import of_function
@@ -56,7 +57,7 @@ class Request:
             given = of_sympy(self.argument, given, self.required, self.states, self.controls, self.parameters)
         if not is_function(given):
             if "x" in self.required:
-                said = f"`{self.argument}` is not a function: {given!r}"
+                said = f"`{self.argument}` is not a function: {shown(given)}"
                 remedy = f"write def {self.argument}({', '.join(self.required)}): return […]"
                 # no function stands below
                 if isinstance(given, int) and given >= 4096:

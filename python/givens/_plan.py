@@ -11,12 +11,13 @@ import numpy as np
 
 from givens import _native
 from givens._arrays import Array
+from givens._capsules import framed
 from givens._clock import Clock, Times, clock_of
 from givens._dynamics import Parametric
 from givens._given import Given, each_of, parameters_by_run, split
 from givens._join import Joined, join, refuse_steep, sensors_of
 from givens._rows import controls_of, measured, noise_shapes, with_noise
-from givens._scalars import mapping, text
+from givens._scalars import mapping, shown, text
 from givens._tables import is_table, rows_by_track
 from givens.errors import InputError, MethodError
 from givens.gaussian import Gaussian
@@ -31,6 +32,10 @@ class Goal:
 
     word: Any
     value: float | None = None
+
+    def rows(self, time: Array) -> int:
+        """How many rows a run over these times has if it does not fail."""
+        return len(time) if self.value is None or self.word != "point" else int(np.sum(time >= self.value))
 
 
 @dataclass(frozen=True)
@@ -85,6 +90,7 @@ def plan(
     options: Mapping[str, Any],
 ) -> tuple[list[Track], bool]:
     """The tracks to run, and whether they are a batch; everything is checked."""
+    t, z, u, noise = framed("t", t), framed("z", z), framed("u", u), framed("noise", noise)
     plain = join(model, sensors)
     choice = choose(model, plain, method, options)
     if isinstance(t, (str, os.PathLike)):
@@ -137,7 +143,11 @@ def _shapes(model: Any, sensors: Any) -> dict[str, tuple[int, ...]]:
 def choose(model: Any, joined: Joined, method: str | None, options: Mapping[str, Any]) -> _native.Choice:
     """The method with its options; those of a model file hold where no other method is named."""
     if method is not None and not isinstance(method, str):
-        raise MethodError(f"`method` is {method!r}, not a name", remedy='write method="sr-ckf"; gv.methods() lists all')
+        raise MethodError(
+            f"`method` is {shown(method)}, not a name", remedy='write method="sr-ckf"; gv.methods() lists all'
+        )
+    for word in (method or "", *options):
+        text("method", word, "a name", "gv.methods() lists all methods with their options")
     if isinstance(model, ModelFile):
         named = method is not None and method != model.method
         options = {**({} if named else model.options), **options}

@@ -49,6 +49,21 @@ def _rows(argument: str, values: Any, rows: int, columns: tuple[str, ...]) -> Ar
 
 def controls_of(joined: Joined, u: Any, rows: int) -> Array | None:
     """Controls (rows, c), each holding from its row to the next; None for a model without any."""
+    found = _controls(joined, u, rows)
+    if found is not None and not np.isfinite(found).all():
+        row, at = map(int, np.argwhere(~np.isfinite(found))[0])
+        name = joined.controls[at]
+        raise InputError(
+            f"`u` of `{name}` is {found[row, at]} in row {row}",
+            argument="u",
+            row=row,
+            component=name,
+            remedy="controls are always known",
+        )
+    return found
+
+
+def _controls(joined: Joined, u: Any, rows: int) -> Array | None:
     names = joined.controls
     if not names:
         if u is None:
@@ -64,7 +79,7 @@ def controls_of(joined: Joined, u: Any, rows: int) -> Array | None:
         missing = [name for name in names if name not in u]
         if missing:
             raise InputError(f"`u` has no entry `{missing[0]}`", argument="u", component=missing[0])
-        return np.stack([np.broadcast_to(numbers(f"u[{name!r}]", u[name]), (rows,)) for name in names], axis=1)
+        return np.stack([_control(f"u[{name!r}]", u[name], rows) for name in names], axis=1)
     array = numbers_by_name("u", u, names, "control", "u_")
     if array.ndim == 1 and len(names) == 1:
         array = array.reshape(-1, 1)
@@ -72,6 +87,13 @@ def controls_of(joined: Joined, u: Any, rows: int) -> Array | None:
         wanted = f"({rows}, {len(names)}): one column for each of {', '.join(names)}"
         raise shape_error("u", array.shape, wanted, "constant controls: u={name: number}")
     return array
+
+
+def _control(argument: str, given: Any, rows: int) -> Array:
+    array = numbers(argument, given)
+    if array.shape not in ((), (1,), (rows,)):
+        raise shape_error(argument, array.shape, f"({rows},)", "give one number for each time, or one for all")
+    return np.broadcast_to(array, (rows,))
 
 
 def noise_shapes(noise: Any, sensors: Mapping[str, int]) -> dict[str, tuple[int, ...]]:
@@ -117,10 +139,10 @@ def with_noise(joined: Joined, u: Array | None, noise: Any, z: Array) -> Array |
         if wrong.any():
             row, at = map(int, np.argwhere(wrong)[0])
             raise InputError(
-                f"`{argument}` is {flat[row, at]} in row {row}",
+                f"`{argument}` of `{measures[at // (flat.shape[1] // len(measures))]}` is {flat[row, at]} in row {row}",
                 argument="noise",
                 row=row,
-                component=name,
+                component=measures[at // (flat.shape[1] // len(measures))],
                 remedy="standard deviations are finite, from 0 up" if len(shape) == 1 else "give finite numbers",
             )
         if len(shape) == 2:

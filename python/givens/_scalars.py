@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Mapping
 from typing import Any
 
@@ -9,12 +10,14 @@ import numpy as np
 
 from givens.errors import InputError
 
-__all__ = ["mapping", "positive", "seed_of", "text", "threads_of", "whole"]
+__all__ = ["mapping", "positive", "seed_of", "shown", "text", "threads_of", "whole"]
 
 #: The largest number of threads, steps or rows that is taken for one.
 MOST = 2**31 - 1
-#: The largest count that is no matter of memory.
-LAST_COUNT = 2**63 - 1
+#: The largest number of runs; whether there is memory for them is another matter.
+MOST_RUNS = 2**32 - 1
+#: The largest number.
+LARGEST = sys.float_info.max
 #: The largest seed.
 LAST_SEED = 2**64 - 1
 
@@ -26,7 +29,7 @@ def whole(argument: str, value: Any, least: int = 0, most: int = MOST) -> int:
         room = f"from {least} up"
         if isinstance(value, (int, np.integer)) and value > most:
             room = f"from {least} to {most}"
-        raise InputError(f"`{argument}` is {value!r}", argument=argument, remedy=f"give a whole number, {room}")
+        raise InputError(f"`{argument}` is {shown(value)}", argument=argument, remedy=f"give a whole number, {room}")
     return int(value)
 
 
@@ -55,12 +58,20 @@ def text(argument: str, value: Any, what: str, remedy: str, split: str = "give w
     return value
 
 
-def positive(argument: str, value: Any, remedy: str) -> float:
-    """A finite number above 0."""
+def positive(argument: str, value: Any, remedy: str, what: str = "", component: str | None = None) -> float:
+    """A finite number above 0; of a component, `what` says what of it."""
     number = isinstance(value, (int, float, np.integer, np.floating)) and not isinstance(value, bool)
-    if not (number and 0 < value < np.inf):
-        raise InputError(f"`{argument}` is {_shown(value)}", argument=argument, remedy=remedy)
+    if not (number and 0 < _float(value) < np.inf):
+        called = f"`{argument}`" if component is None else f"`{argument}`: the {what} of `{component}`"
+        raise InputError(f"{called} is {_shown(value)}", argument=argument, component=component, remedy=remedy)
     return float(value)
+
+
+def _float(value: Any) -> float:
+    try:
+        return float(value)
+    except OverflowError:
+        return np.inf
 
 
 def mapping(argument: str, value: Any, example: str) -> Mapping[str, Any]:
@@ -75,4 +86,14 @@ def mapping(argument: str, value: Any, example: str) -> Mapping[str, Any]:
 
 
 def _shown(value: Any) -> str:
-    return repr(value) if value is None or isinstance(value, (int, float, str)) else type(value).__name__
+    return shown(value) if value is None or isinstance(value, (int, float, str)) else type(value).__name__
+
+
+def shown(value: Any) -> str:
+    """As Python writes it; what Python cannot, such as a number of thousands of digits, in words."""
+    if isinstance(value, int) and abs(value) > LARGEST:
+        return "a number beyond 1.8e308"
+    try:
+        return repr(value)
+    except Exception:
+        return f"a {type(value).__name__}"

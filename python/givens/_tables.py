@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import numpy as np
@@ -12,6 +12,7 @@ from givens._dates import Dates, dates_of, seconds_of
 from givens._frames import columns_of
 from givens._join import Joined
 from givens._names import known_name, listed
+from givens._scalars import shown
 from givens.errors import InputError
 
 __all__ = ["is_table", "rows_by_track"]
@@ -29,11 +30,24 @@ def is_table(value: object) -> bool:
     return frame or hasattr(value, "column_names") or hasattr(value, "fetchnumpy")
 
 
-def _columns(table: Any) -> dict[str, Any]:
-    if hasattr(table, "fetchnumpy"):
-        table = table.fetchnumpy()
-    names = table if isinstance(table, Mapping) else columns_of(table)
-    return _index(table) | {str(name): table[name] for name in names}
+class _Columns(Mapping[str, Any]):
+    """The columns of a table, each taken out when it is asked for."""
+
+    def __init__(self, table: Any) -> None:
+        if hasattr(table, "fetchnumpy"):
+            table = table.fetchnumpy()
+        self._table = table
+        self._index = _index(table)
+        self._names = {str(name): name for name in (table if isinstance(table, Mapping) else columns_of(table))}
+
+    def __getitem__(self, name: str) -> Any:
+        return self._table[self._names[name]] if name in self._names else self._index[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter([*(name for name in self._index if name not in self._names), *self._names])
+
+    def __len__(self) -> int:
+        return len(self._index.keys() | self._names.keys())
 
 
 def _index(table: Any) -> dict[str, Any]:
@@ -68,7 +82,7 @@ def _words(column: Any) -> list[Any]:
 
 def rows_by_track(joined: Joined, table: Any) -> list[dict[str, Any]]:
     """The rows of each track, in the order in which tracks appear: `id`, `time`, `z`, `u`."""
-    columns = _columns(table)
+    columns = _Columns(table)
     time = next((columns[name] for name in _TIME if name in columns), None)
     if time is None:
         raise InputError(
@@ -96,7 +110,15 @@ def rows_by_track(joined: Joined, table: Any) -> list[dict[str, Any]]:
                 row=row,
                 remedy="name the track of each row, or leave such rows out",
             )
-        found.setdefault(track, []).append(row)
+        try:
+            found.setdefault(track, []).append(row)
+        except TypeError:
+            raise InputError(
+                f"`{_TRACK}` is {shown(track)} in row {row}, which is no name",
+                argument=_TRACK,
+                row=row,
+                remedy="name tracks by words or whole numbers",
+            ) from None
     return [
         {"id": track, "time": times[of], "z": z[of], "u": None if u is None else u[of]} for track, of in found.items()
     ]
@@ -128,7 +150,7 @@ def _measures(joined: Joined, columns: Mapping[str, Any], rows: int) -> Array:
             remedy="name the columns as the measures are named",
         )
     if _SENSOR in columns:
-        of = [None if name is None else str(name) for name in _words(columns[_SENSOR])]
+        of = [name if name is None or isinstance(name, str) else shown(name) for name in _words(columns[_SENSOR])]
         for sensor in {name for name in of if name}:
             known_name("sensor", sensor, tuple(joined.sensors), "sensor")
         for sensor, place in joined.sensors.items():

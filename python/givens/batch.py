@@ -3,23 +3,42 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import Any, overload
+from typing import Any, Self, overload
 
 import numpy as np
+import numpy.typing as npt
 
+from givens import _native
 from givens._arrays import Array
+from givens._plan import Goal, Track
+from givens._sampling import draws
+from givens._scalars import seed_of, shown, threads_of, whole
+from givens._stack import Stacked, stacked
 from givens.consistency import Consistency, consistency_of
 from givens.errors import InputError, StepError
-from givens.estimates import Estimates
+from givens.estimates import Estimates, step_error
 
 __all__ = ["Batch"]
 
 
-class Batch(Sequence[Estimates]):
-    """The estimates of several trajectories, in the order of the data.
+class Batch(Stacked):
+    """The estimates of several trajectories, in the order of the data: a sequence of `Estimates`.
+
+    The arrays of all tracks are those of `Estimates` with one dimension more in front, and cannot be written to; behind
+    the failure of a track they are NaN, and `nis_dof` is 0. Tracks with different numbers of rows have none.
 
     Attributes
     ----------
+    time : ndarray, shape (runs, rows)
+        As given; NaN, or NaT, behind the failure of a track.
+    mean, filtered_mean, predicted_mean, std : ndarray, shape (runs, rows, n)
+    cov, factor, filtered_cov, predicted_cov : ndarray, shape (runs, rows, n, n)
+    innovation, innovation_cov : ndarray, shapes (runs, rows, d) and (runs, rows, d, d)
+    nis, nis_dof, log_likelihood : ndarray, shape (runs, rows)
+    total_log_likelihood : ndarray, shape (runs,)
+        Of each track.
+    state, measures : tuple of str
+        Names.
     failed : list of StepError
         Those that ended early; each names its track.
     track_ids : list
@@ -39,10 +58,36 @@ class Batch(Sequence[Estimates]):
     (5, 3, 1)
     """
 
+    # no `collections.abc.Sequence`: polars would take one apart before it asks for `__arrow_c_stream__`
+
     def __init__(self, estimates: Sequence[Estimates], failed: Sequence[StepError] = ()) -> None:
         self._estimates = tuple(estimates)
         self.failed = list(failed)
         self.track_ids = [k if one.track_id is None else one.track_id for k, one in enumerate(self._estimates)]
+
+    @classmethod
+    def _run(cls, tracks: Sequence[Track], goals: Sequence[Goal], at: Any, threads: int | None) -> Self:
+        """Runs the tracks, each after its goal."""
+        times = [None if at is None else track.clock.wanted("at", at) for track in tracks]
+        found: list[Any] = [None] * len(tracks)
+        alike: dict[Goal, list[int]] = {}
+        for k, goal in enumerate(goals):
+            alike.setdefault(goal, []).append(k)
+        jobs = [
+            track.arguments(None if wanted is None else wanted.seconds)
+            for track, wanted in zip(tracks, times, strict=True)
+        ]
+        for goal, these in alike.items():
+            natives = _native.run_batch([jobs[k] for k in these], goal.word, goal.value, threads)
+            for k, native in zip(these, natives, strict=True):
+                found[k] = native
+        estimates, failed = [], []
+        for k, (track, native, goal, wanted) in enumerate(zip(tracks, found, goals, times, strict=True)):
+            error = step_error(track, native, goal, k if track.id is None else track.id)
+            if error is not None:
+                failed.append(error)
+            estimates.append(Estimates._of(track, native, goal, wanted, error))
+        return cls(estimates, failed)
 
     @overload
     def __getitem__(self, index: int) -> Estimates: ...
@@ -51,7 +96,9 @@ class Batch(Sequence[Estimates]):
     def __getitem__(self, index: Any) -> Any:
         if isinstance(index, slice):
             chosen = self._estimates[index]
-            return Batch(chosen, [one.failed for one in chosen if one.failed is not None])
+            part = Batch(chosen, [one.failed for one in chosen if one.failed is not None])
+            part.track_ids = self.track_ids[index]
+            return part
         return self._estimates[index]
 
     def __len__(self) -> int:
@@ -62,56 +109,68 @@ class Batch(Sequence[Estimates]):
 
     def track(self, name: Any) -> Estimates:
         """The estimates of a track by its name."""
-        if name not in self.track_ids:
-            raise InputError(f"there is no track {name!r}", argument="name", remedy=f"there are {self.track_ids[:10]}")
-        return self._estimates[self.track_ids.index(name)]
-
-    def _stacked(self, name: str) -> Array:
-        lengths = {one.__dict__["_rows"] for one in self._estimates}
-        if len(lengths) > 1:
+        try:
+            return self._estimates[self.track_ids.index(name)]
+        except ValueError:
             raise InputError(
-                f"the tracks have {min(lengths)} to {max(lengths)} rows: `{name}` cannot be one array",
-                argument=name,
-                remedy=f"take them one by one: [est.{name} for est in batch]",
-            )
-        rows = max((len(one) for one in self._estimates), default=0)
-        arrays = [np.asarray(getattr(one, name)) for one in self._estimates]
-        # a track that failed has fewer rows
-        return np.stack([_padded(array, rows) for array in arrays]) if arrays else np.empty((0, 0))
-
-    @property
-    def mean(self) -> Array:
-        """Means, shape (runs, rows, n); NaN behind the failure of a track."""
-        return self._stacked("mean")
-
-    @property
-    def cov(self) -> Array:
-        """Covariances, shape (runs, rows, n, n)."""
-        return self._stacked("cov")
-
-    @property
-    def std(self) -> Array:
-        """Standard deviations, shape (runs, rows, n)."""
-        return self._stacked("std")
-
-    @property
-    def nis(self) -> Array:
-        """Shape (runs, rows)."""
-        return self._stacked("nis")
-
-    @property
-    def log_likelihood(self) -> Array:
-        """Shape (runs, rows)."""
-        return self._stacked("log_likelihood")
+                f"there is no track {shown(name)}", argument="name", remedy=f"there are {self.track_ids[:10]}"
+            ) from None
 
     @property
     def total_log_likelihood(self) -> Array:
         """Of each track, shape (runs,)."""
         return np.array([one.total_log_likelihood for one in self._estimates])
 
+    def at(self, times: Any, *, threads: int | None = None) -> Batch:
+        """The estimates of all tracks at other times, in order, as `Estimates.at` gives those of one.
+
+        Parameters
+        ----------
+        times : array_like
+            From the latest prior on; dates if the data has dates.
+        threads : int, optional
+            As for `givens.filter`.
+        """
+        tracks: list[Track] = [one.__dict__["_track"] for one in self._estimates]
+        if None in tracks:
+            raise InputError(
+                "these estimates come from a pickle and cannot run again",
+                argument="at",
+                remedy="ask before they are pickled, or give at=… to givens.filter",
+            )
+        there = Batch._run(tracks, [one.__dict__["_goal"] for one in self._estimates], times, threads_of(threads))
+        there.track_ids = list(self.track_ids)
+        return there
+
+    def sample(self, n: int, *, seed: int) -> Array:
+        """Draws states from the estimates of each track, as `Estimates.sample` does from one; tracks draw differently.
+
+        Parameters
+        ----------
+        n : int
+            How many of each track.
+        seed : int
+            From 0 up. Equal seeds give equal draws, however many there are.
+
+        Returns
+        -------
+        ndarray, shape (runs, n, rows, states)
+        """
+        n, seed = whole("n", n), seed_of(seed)
+        one_by_one = "take them one by one: [est.{}(n, seed=k) for k, est in enumerate(batch)]"
+        drawn: Array = stacked(
+            self._estimates, "sample", lambda k, one: draws(one, n, seed, k), axis=1, remedy=one_by_one
+        )
+        return drawn
+
     def consistency(self) -> Consistency:
         """Of all tracks together."""
         return consistency_of(self._estimates)
+
+    def to_dict(self) -> dict[str, Any]:
+        """The arrays of all tracks by name."""
+        names = self._estimates[0].to_dict() if self._estimates else ()
+        return {name: getattr(self, name) for name in names}
 
     def to_pandas(self) -> Any:
         """One table, with the column ``track_id``."""
@@ -120,19 +179,52 @@ class Batch(Sequence[Estimates]):
         return batch_to_pandas(self)
 
     def to_polars(self) -> Any:
-        """One table, with the column ``track_id``."""
-        from givens._export import batch_to_polars
+        """One table, with the column ``track_id``; what is not known is null."""
+        from givens._export import to_polars
 
-        return batch_to_polars(self)
+        return to_polars(self)
+
+    def __arrow_c_stream__(self, requested_schema: object = None) -> object:
+        """The table of `to_polars` for whatever reads Arrow: ``pyarrow.table(batch)``, a query of duckdb."""
+        from givens._capsules import batch_stream
+
+        return batch_stream(self)
+
+    def to_xarray(self) -> Any:
+        """A data set with the dimensions track, time, state, state2, measure, measure2.
+
+        Where tracks have different times there is the dimension row in place of time, and `time` has track and row.
+        """
+        from givens._export import batch_to_xarray
+
+        return batch_to_xarray(self)
+
+    def plot(self, *, plane: tuple[str, str] | None = None, truth: npt.ArrayLike | None = None) -> Any:
+        """Draws the means of the tracks, at most fifty of them, and NIS of all; with `plane`, the tracks in it as well.
+
+        Parameters
+        ----------
+        plane : (str, str), optional
+            Two states that are coordinates of a plane.
+        truth : array_like, shape (runs, rows, n), optional
+            True states, drawn beside the estimates.
+        """
+        from givens._plot_batch import plot
+
+        return plot(self, plane, truth)
+
+    def __copy__(self) -> Batch:
+        return self[:]
+
+    def __deepcopy__(self, memo: Any) -> Batch:
+        # estimates cannot change, and a failure belongs to its estimates
+        return self[:]
 
     def __repr__(self) -> str:
         rows = sum(map(len, self._estimates))
         return f"Batch({len(self)} tracks, {rows} rows, {len(self.failed)} failed)"
 
+    def _repr_html_(self) -> str:
+        from givens._html import batch_html
 
-def _padded(array: Array, rows: int) -> Array:
-    if len(array) == rows:
-        return array
-    padded = np.full((rows, *array.shape[1:]), np.nan)
-    padded[: len(array)] = array
-    return padded
+        return batch_html(self)

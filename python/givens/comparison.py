@@ -12,9 +12,10 @@ import numpy.typing as npt
 
 from givens import _native
 from givens._arrays import Array
+from givens._capsules import framed
 from givens._frames import numbers_by_name
 from givens._names import known_name
-from givens._scalars import mapping
+from givens._scalars import mapping, shown
 from givens.batch import Batch
 from givens.consistency import Consistency, consistency_of
 from givens.errors import InputError, StepError
@@ -152,9 +153,16 @@ def compare(
     """
     options = mapping("options", options, 'options={"sr-ukf": {"kappa": 0}}')
     if isinstance(methods, str) or not isinstance(methods, Iterable) or not list(methods):
-        raise InputError(f"`methods` is {methods!r}", argument="methods", remedy='write methods=["ekf", "sr-ckf"]')
+        raise InputError(f"`methods` is {shown(methods)}", argument="methods", remedy='write methods=["ekf", "sr-ckf"]')
+    for name in methods:
+        if not isinstance(name, str):
+            raise InputError(
+                f"`methods` holds {shown(name)}", argument="methods", remedy='write methods=["ekf", "sr-ckf"]'
+            )
     for name in options:
         known_name("options", name, tuple(methods), "method among `methods`")
+    # what lends its columns may do so only once
+    t, z, truth = framed("t", t), framed("z", z), framed("truth", truth)
     found = Comparison()
     for name in methods:
         own = mapping("options", options.get(name), 'options={"sr-ukf": {"kappa": 0}}')

@@ -2,6 +2,9 @@
 
 All of them are `GivensError`; each also is the built-in exception that its kind suggests, so that programs which know
 nothing of this package catch it where they look for it. They can be pickled.
+
+Fields are indices, from zero, as everywhere in Python; so are rows and elements in the messages (row 3, `cov[0, 1]`).
+What has a name, such as a state, is called by it. Only pivots are counted from one in words (pivot 2 of 3).
 """
 
 from __future__ import annotations
@@ -181,7 +184,8 @@ class StepError(GivensError, ArithmeticError):
     matrix : str or None
         The covariance that has no root, such as ``"innovation covariance"``.
     pivot : int or None
-        The pivot at which its factorisation failed, from zero.
+        The pivot at which its factorisation failed, from zero; the message counts from one, and names its state or
+        measure.
     quantity : str or None
         What is not a finite number, such as ``"drift"``.
     component : str or None

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 import numpy.typing as npt
@@ -11,6 +11,7 @@ from givens import _native
 from givens._arrays import Array, frozen
 from givens._clock import Times
 from givens._plan import Goal, Track
+from givens._sampling import draws
 from givens._scalars import seed_of, whole
 from givens.consistency import Consistency, consistency_of
 from givens.errors import InputError, StepError
@@ -117,7 +118,8 @@ class Estimates:
             "is_smoothed": found.smoothed,
         }
         fields |= {"state": track.joined.states, "measures": track.joined.measures, "method": track.choice.name}
-        fields |= {"failed": failed, "track_id": track.id, "_track": track, "_goal": goal, "_rows": len(track.time)}
+        fields |= {"failed": failed, "track_id": track.id, "_track": track, "_goal": goal}
+        fields["_rows"] = goal.rows(track.time) if at is None else len(at.seconds)
         fields["_aware"] = bool(track.clock.aware)
         fields["_whole"] = goal.word == "interval" and at is None and failed is None
         self.__dict__.update(fields)
@@ -141,6 +143,13 @@ class Estimates:
     def total_log_likelihood(self) -> float:
         """The log-likelihood of all measurements together."""
         return float(np.sum(self.log_likelihood))
+
+    def __copy__(self) -> Self:
+        return self
+
+    def __deepcopy__(self, memo: Any) -> Self:
+        # nothing of it can change
+        return self
 
     def __getstate__(self) -> dict[str, Any]:
         # a native model cannot travel: what comes back has all numbers but cannot run again
@@ -195,25 +204,7 @@ class Estimates:
         -------
         ndarray, shape (n, rows, states)
         """
-        n, seed = whole("n", n), seed_of(seed)
-        if self.__dict__["_whole"]:
-            return self._paths(n, seed)
-        normal = np.random.default_rng(seed).standard_normal((n, *self.mean.shape))
-        drawn: Array = self.mean + np.einsum("kij,skj->ski", self.factor, normal)
-        return drawn
-
-    def _paths(self, n: int, seed: int) -> Array:
-        track: Track | None = self.__dict__["_track"]
-        if track is None:
-            raise InputError(
-                "these estimates come from a pickle and cannot draw trajectories",
-                argument="n",
-                remedy="draw before they are pickled",
-            )
-        model, choice, mean, cov, t0, time, z, u, _ = track.arguments()
-        drawn = _native.sample(model, choice, mean, cov, t0, time, z, u, draws=n, seed=seed)
-        unknown = np.full((n, track.before, drawn.shape[2]), np.nan)
-        return np.concatenate([unknown, drawn], axis=1) if track.before else drawn
+        return draws(self, whole("n", n), seed_of(seed))
 
     def consistency(self) -> Consistency:
         """Whether the innovations are as large as the filter says, and unrelated to each other."""
@@ -231,10 +222,16 @@ class Estimates:
         return to_pandas(self)
 
     def to_polars(self) -> Any:
-        """A table with the columns of the command's CSV."""
+        """A table with the columns of the command's CSV; what is not known is null."""
         from givens._export import to_polars
 
         return to_polars(self)
+
+    def __arrow_c_stream__(self, requested_schema: object = None) -> object:
+        """The table of `to_polars` for whatever reads Arrow: ``pyarrow.table(est)``, a query of duckdb."""
+        from givens._capsules import stream
+
+        return stream(self)
 
     def to_xarray(self) -> Any:
         """A data set with the dimensions time, state, state2, measure, measure2."""

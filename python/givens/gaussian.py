@@ -62,9 +62,7 @@ class Gaussian:
             raise shape_error("mean", middle.shape, "(n,)", "a vector has one dimension: mean=np.ravel(…)")
         if not np.isfinite(middle).all():
             at = int(np.flatnonzero(~np.isfinite(middle))[0])
-            raise InputError(
-                f"`mean` is {middle[at]} at component {at}", argument="mean", remedy="give a finite number"
-            )
+            raise InputError(f"`mean[{at}]` is {middle[at]}", argument="mean", remedy="give a finite number")
         if (cov is None) == (std is None):
             said = "neither `cov` nor `std`" if cov is None else "`cov` and `std` at once"
             raise InputError(
@@ -134,6 +132,11 @@ class Gaussian:
             return f"Gaussian({mean}, std={np.array2string(self.std, separator=', ')})"
         return f"Gaussian({mean}, cov={np.array2string(self._cov, separator=', ', prefix='Gaussian(')})"
 
+    def _repr_html_(self) -> str:
+        from givens._html import gaussian_html
+
+        return gaussian_html(self)
+
 
 def _variances(std: Any, n: int) -> Array:
     array = np.atleast_1d(numbers("std", std))
@@ -143,7 +146,7 @@ def _variances(std: Any, n: int) -> Array:
     if wrong.any():
         at = int(np.flatnonzero(wrong)[0])
         raise InputError(
-            f"`std` is {array[at]} at component {at}",
+            f"`std[{at}]` is {array[at]}",
             argument="std",
             remedy="standard deviations are finite, from 0 up",
         )
@@ -152,7 +155,7 @@ def _variances(std: Any, n: int) -> Array:
     if not np.isfinite(squares).all():
         at = int(np.flatnonzero(~np.isfinite(squares))[0])
         raise InputError(
-            f"`std` is {array[at]} at component {at}, whose square is no finite number",
+            f"`std[{at}]` is {array[at]}, whose square is no finite number",
             argument="std",
             remedy="measure the state in a larger unit",
         )
@@ -163,7 +166,7 @@ def _covariance(cov: Any, n: int) -> Array:
     matrix = square("cov", np.reshape(cov, (1, 1)) if n == 1 and np.size(cov) == 1 else cov, n)
     if not np.isfinite(matrix).all():
         i, j = np.argwhere(~np.isfinite(matrix))[0]
-        raise InputError(f"`cov` is {matrix[i, j]} at [{i}, {j}]", argument="cov", remedy="give a finite number")
+        raise InputError(f"`cov[{i}, {j}]` is {matrix[i, j]}", argument="cov", remedy="give a finite number")
     apart = first_asymmetry(matrix)
     if apart is not None:
         i, j = apart
@@ -175,7 +178,7 @@ def _covariance(cov: Any, n: int) -> Array:
     failed = int(lower_factor(matrix)[1])
     if failed >= 0:
         raise InputError(
-            f"`cov` is not positive semidefinite at pivot {failed + 1}",
+            f"`cov` is not positive semidefinite at pivot {failed + 1} of {n}",
             argument="cov",
             remedy="variances are from 0 up and correlations from -1 to 1; were standard deviations meant, write std=…",
         )

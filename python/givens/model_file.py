@@ -11,6 +11,7 @@ import numpy as np
 
 from givens._names import known_name
 from givens._native import Model
+from givens._scalars import shown
 from givens._scalars import text as _text
 from givens._trace.arguments import parameter_value
 from givens.errors import InputError
@@ -142,7 +143,7 @@ class ModelFile:
         new = dict(self.parameters)
         for name, value in values.items():
             known_name("with_params", name, tuple(new), "parameter")
-            new[name] = float(parameter_value("with_params", name, value))
+            new[name] = _float("with_params", name, value)
         return ModelFile(self.native.with_parameters(np.array(list(new.values()), dtype=float)), self._text)
 
     def filter(self, t: Any, z: Any = None, **options: Any) -> Estimates | Any:
@@ -198,7 +199,9 @@ def read_model(path: str | os.PathLike[str], **parameters: float) -> ModelFile:
         For a file with errors; all of them, with their places.
     """
     if not isinstance(path, (str, os.PathLike)):
-        raise InputError(f"`path` is {path!r}, not a path", argument="path", remedy='write read_model("model.toml")')
+        raise InputError(
+            f"`path` is {shown(path)}, not a path", argument="path", remedy='write read_model("model.toml")'
+        )
     named = _text("path", os.fspath(path), "a path", 'write read_model("model.toml")', _NAME)
     native = Model.read(named, _floats(parameters))
     with open(path, encoding="utf-8") as file:
@@ -217,4 +220,19 @@ def _again(text: str, name: str, parameters: dict[str, float]) -> ModelFile:
 
 
 def _floats(parameters: Mapping[str, float]) -> dict[str, float]:
-    return {name: float(parameter_value("parameters", name, value)) for name, value in parameters.items()}
+    return {
+        _text("parameters", name, "a name", "name a parameter"): _float("parameters", name, value)
+        for name, value in parameters.items()
+    }
+
+
+def _float(argument: str, name: str, value: object) -> float:
+    array = parameter_value(argument, name, value)
+    if array.ndim:
+        raise InputError(
+            f"`{argument}`: the parameter `{name}` has shape {array.shape}, not ()",
+            argument=argument,
+            component=name,
+            remedy="give one number",
+        )
+    return float(array)

@@ -137,7 +137,13 @@ class Filter:
             raise InputError("the model has no controls", argument="u", remedy='name them: controls=["thrust"]')
         if u is None:
             raise InputError(f"`u` is missing: the model has the controls {', '.join(names)}", argument="u")
-        self._native.set_controls(vector("u", u, names))
+        controls = vector("u", u, names)
+        for name, value in zip(names, controls, strict=True):
+            if not np.isfinite(value):
+                raise InputError(
+                    f"`u` of `{name}` is {value}", argument="u", component=name, remedy="controls are always known"
+                )
+        self._native.set_controls(controls)
 
     @property
     def time(self) -> Any:

@@ -7,9 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from givens import _native
 from givens._plan import Goal, Track, plan
-from givens._scalars import threads_of
+from givens._scalars import shown, threads_of
 from givens.batch import Batch
 from givens.errors import InputError
 from givens.estimates import Estimates, step_error
@@ -48,10 +47,10 @@ def filter(
         What is measured; None for a model file, which has its own.
     t : array_like, shape (rows,)
         Times in order: numbers, durations, which are taken as seconds, or dates, of which seconds since `t0` are taken;
-        dates have a time zone all of them, or none. Or a table in place of `t` and `z`: of pandas, polars, pyarrow or
-        duckdb, or a dict of arrays, with the columns ``time`` (in pandas, the index may be it), one for each measure,
-        and, if there are such, ``sensor``, ``track_id`` and ``u_…`` for controls. For a model file also the path of a
-        CSV file.
+        dates have a time zone all of them, or none. Or a table in place of `t` and `z`: of pandas, polars, pyarrow,
+        duckdb or whatever has ``__arrow_c_stream__``, or a dict of arrays, with the columns ``time`` (in pandas, the
+        index may be it), one for each measure, and, if there are such, ``sensor``, ``track_id`` and ``u_…`` for
+        controls. For a model file also the path of a CSV file.
     z : array_like, shape (rows, d)
         Measurements, those of several sensors side by side in their order; NaN and masked are missing. The columns of a
         frame are taken by the names of the measures. Or a table by sensor: ``{"radar": (rows, 3), …}``. A row without
@@ -169,7 +168,9 @@ def smooth(
     goals = [Goal("interval")] * len(tracks)
     if lag is not None:
         if not isinstance(lag, (int, np.integer)) or isinstance(lag, bool) or lag < 0:
-            raise InputError(f"`lag` is {lag!r}", argument="lag", remedy="a lag is a whole number of rows, from 0 up")
+            raise InputError(
+                f"`lag` is {shown(lag)}", argument="lag", remedy="a lag is a whole number of rows, from 0 up"
+            )
         # longer than any data is as long as the data
         goals = [Goal("lag", float(min(lag, 2**53)))] * len(tracks)
     if point is not None:
@@ -179,30 +180,13 @@ def smooth(
 
 
 def _run(tracks: list[Track], batch: bool, goals: list[Goal], at: Any, threads: int | None) -> Estimates | Batch:
-    times = [None if at is None else track.clock.wanted("at", at) for track in tracks]
     threads = threads_of(threads)
-    if not batch:
-        goal, wanted = goals[0], times[0]
-        native = tracks[0].run(goal.word, goal.value, None if wanted is None else wanted.seconds)
-        error = step_error(tracks[0], native, goal)
-        if error is not None:
-            raise error
-        return Estimates._of(tracks[0], native, goal, wanted)
-    jobs = [
-        track.arguments(None if wanted is None else wanted.seconds) for track, wanted in zip(tracks, times, strict=True)
-    ]
-    found: list[Any] = [None] * len(jobs)
-    alike: dict[Goal, list[int]] = {}
-    for k, goal in enumerate(goals):
-        alike.setdefault(goal, []).append(k)
-    for goal, these in alike.items():
-        natives = _native.run_batch([jobs[k] for k in these], goal.word, goal.value, threads)
-        for k, native in zip(these, natives, strict=True):
-            found[k] = native
-    estimates, failed = [], []
-    for k, (track, native, goal, wanted) in enumerate(zip(tracks, found, goals, times, strict=True)):
-        error = step_error(track, native, goal, k if track.id is None else track.id)
-        if error is not None:
-            failed.append(error)
-        estimates.append(Estimates._of(track, native, goal, wanted, error))
-    return Batch(estimates, failed)
+    if batch:
+        return Batch._run(tracks, goals, at, threads)
+    (track,), (goal,) = tracks, goals
+    wanted = None if at is None else track.clock.wanted("at", at)
+    native = track.run(goal.word, goal.value, None if wanted is None else wanted.seconds)
+    error = step_error(track, native, goal)
+    if error is not None:
+        raise error
+    return Estimates._of(track, native, goal, wanted)

@@ -17,6 +17,7 @@ from givens._measuring import near, periods, spread
 from givens._measuring import parameters as parameters_known
 from givens._names import listed, names_of
 from givens._part import Part, Request, is_function
+from givens._scalars import shown, text
 from givens._symbolic import is_symbolic
 from givens._trace.place import of_function
 from givens.errors import InputError
@@ -92,6 +93,7 @@ class Sensor(Parametric):
         jacobian: Callable[..., Any] | None = None,
         check_at: npt.ArrayLike | None = None,
     ) -> None:
+        name = text("name", name, "a name", 'write name="radar"')
         columns = names_of("measures", measures, example='["range", "bearing"]')
         if not columns:
             raise InputError("`measures` names nothing", argument="measures", remedy='write measures=["range"]')
@@ -104,12 +106,12 @@ class Sensor(Parametric):
                 remedy="give the standard deviations of its errors, std=[…], or else their covariance, cov=[[…]]",
             )
         if not (is_function(h) or is_symbolic(h)):
-            raise InputError(f"`h` is not a function: {h!r}", argument="h", remedy="write def h(t, x): return […]")
+            raise InputError(f"`h` is not a function: {shown(h)}", argument="h", remedy="write def h(t, x): return […]")
         noise = "std" if cov is None else "cov"
         errors = spread(noise, std if cov is None else cov, columns)
         given = {"h": h, noise: errors, "jacobian": jacobian, "parameters": dict(parameters or {})}
         self._put(
-            name=str(name),
+            name=name,
             measures=columns,
             trace=trace,
             vectorized=called_at_once(vectorized, trace),

@@ -10,11 +10,12 @@ import numpy as np
 
 from givens import _native
 from givens._arrays import Array
+from givens._capsules import framed
 from givens._clock import clock_of
 from givens._join import join, refuse_steep_paths
 from givens._plan import read_prior, with_parameters
 from givens._rows import controls_of, noise_shapes, with_noise
-from givens._scalars import LAST_COUNT, mapping, seed_of, threads_of, whole
+from givens._scalars import MOST_RUNS, mapping, seed_of, threads_of, whole
 from givens.gaussian import Gaussian
 
 __all__ = ["Simulated", "simulate"]
@@ -92,6 +93,7 @@ def simulate(
     Simulated(t=(3,), x=(100, 3, 2), z=(100, 3, 1))
     """
     model, sensors = with_parameters(model, sensors, mapping("params", params, "params={name: value}"))
+    t, u, noise = framed("t", t), framed("u", u), framed("noise", noise)
     plain = join(model, sensors)
     widths = {name: place.stop - place.start for name, place in plain.sensors.items()}
     joined = join(model, sensors, noise_shapes(noise, widths)) if noise is not None else plain
@@ -100,7 +102,7 @@ def simulate(
     start = None if t0 is None else clock.moment("t0", t0)
     times = clock.times("t", t)
     time = times.seconds
-    drawn_from, count = seed_of(seed), 1 if runs is None else whole("runs", runs, 0, LAST_COUNT)
+    drawn_from, count = seed_of(seed), 1 if runs is None else whole("runs", runs, 0, MOST_RUNS)
     z = np.zeros((len(time), len(joined.measures)))
     controls = with_noise(joined, controls_of(joined, u, len(time)), noise, z)
     mean, cov = read_prior(model, prior, joined.states)

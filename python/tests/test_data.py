@@ -46,7 +46,7 @@ def test_a_mask_hides_wherever_it_stands():
     same(run(z=list(masked[0])), expected[0])
     same(run(z=[[row[0]] for row in masked[0]]), expected[0])
     u = hidden(np.zeros((3, 2)), (1, 0))
-    with pytest.raises(gv.InputError, match="control 0 is NaN"):
+    with pytest.raises(gv.InputError, match="`u` of `e` is nan in row 1"):
         gv.filter(PUSHED, BOTH, [0, 1, 2], Z2, prior=WIDE, u=u)
     with pytest.raises(gv.InputError, match="is nan in row 1"):
         walk(noise=hidden(np.ones((3, 2)), (1, 1)))
@@ -345,7 +345,7 @@ CASES = [
     ),
     (
         lambda: gv.Gaussian([0], std=[1e160]),
-        "`std` is 1e+160 at component 0, whose square is no finite number",
+        "`std[0]` is 1e+160, whose square is no finite number",
         "measure the state in a larger unit",
     ),
     (lambda: walk(method=3), "`method` is 3, not a name", 'write method="sr-ckf"; gv.methods() lists all'),

@@ -251,7 +251,7 @@ CASES = [
     (
         lambda: gv.Gaussian([0, np.inf], np.eye(2)),
         gv.InputError,
-        "`mean` is inf at component 1\n  help: give a finite number",
+        "`mean[1]` is inf\n  help: give a finite number",
     ),
     (
         lambda: gv.Gaussian([0, 1], [1, 1]),
@@ -261,13 +261,13 @@ CASES = [
     (
         lambda: gv.Gaussian([0, 1], std=[1, -1]),
         gv.InputError,
-        "`std` is -1.0 at component 1\n  help: standard deviations are finite, from 0 up",
+        "`std[1]` is -1.0\n  help: standard deviations are finite, from 0 up",
     ),
     (lambda: gv.Gaussian([0, 1], std=[1, 1, 1]), gv.InputError, "`std` has shape (3,), not (2,), the shape of `mean`"),
     (
         lambda: gv.Gaussian([0, 1], [[1, 2], [2, 1]]),
         gv.InputError,
-        "`cov` is not positive semidefinite at pivot 2\n  help: variances are from 0 up and correlations from -1 to 1; were standard deviations meant, write std=…",
+        "`cov` is not positive semidefinite at pivot 2 of 2\n  help: variances are from 0 up and correlations from -1 to 1; were standard deviations meant, write std=…",
     ),
     (
         lambda: gv.Gaussian([0, 1], [[1, 0.2], [0.1, 1]]),
@@ -277,7 +277,7 @@ CASES = [
     (
         lambda: gv.Gaussian([0, 1], [[1, np.nan], [0.1, 1]]),
         gv.InputError,
-        "`cov` is nan at [0, 1]\n  help: give a finite number",
+        "`cov[0, 1]` is nan\n  help: give a finite number",
     ),
     (
         lambda: gv.Gaussian(["a", 1], np.eye(2)),
@@ -450,7 +450,7 @@ CASES = [
     (
         lambda: gv.filter(MODEL, LENGTH, T, Z, prior=PRIOR, noise=-np.abs(Z)),
         gv.InputError,
-        "`noise['ruler']` is -0.9121409810968514 in row 0\n  help: standard deviations are finite, from 0 up",
+        "`noise['ruler']` of `length` is -0.9121409810968514 in row 0\n  help: standard deviations are finite, from 0 up",
     ),
     (
         lambda: gv.filter(MODEL, LENGTH, T, Z, prior=PRIOR, noise=Z[:4]),
@@ -585,3 +585,65 @@ def test_a_wrong_argument_is_told_with_place_and_remedy(case):
     assert type(caught.value) is kind
     again = pickle.loads(pickle.dumps(caught.value))
     assert str(again) == message and again.__dict__.keys() == caught.value.__dict__.keys()
+
+
+def counted(what):
+    """A call that is refused at the second of two states, measures, controls or parameters."""
+    model = gv.Transition(
+        lambda t, dt, x, u, *, k=1.0, w=np.ones(2): k * w * x + u[0] * u[1],
+        noise_cov=np.eye(2),
+        state=["x", "v"],
+        controls=["thrust", "flap"],
+    )
+    sensor = gv.Sensor(lambda t, x: x, measures=["p", "q"], std=[1.0, 1.0], name="ruler")
+    given = {"u": {"thrust": 0.0, "flap": 0.0}, "prior": gv.Gaussian([0, 0], std=[1, 1])}
+    if what == "controls":
+        given["u"] = [[0, 0], [0, np.nan], [0, 0]]
+    elif what == "parameters":
+        model = model.with_params(w=[1.0, np.inf])
+    elif what == "noise":
+        given["noise"] = [[1, 1], [1, 1], [1, -1]]
+    elif what == "covariances":
+        given["noise"] = np.stack([np.eye(2), np.diag([1, np.nan]), np.eye(2)])
+    elif what == "set_controls":
+        return gv.Filter(model, sensor, prior=given["prior"], t0=0, u=[0, np.inf])
+    return gv.filter(model, sensor, [0, 1, 2], np.zeros((3, 2)), **given)
+
+
+COUNTED = {
+    "controls": ("`u` of `flap` is nan in row 1", 1, "flap"),
+    "set_controls": ("`u` of `flap` is inf", None, "flap"),
+    "parameters": ("the parameter `w` is inf, not a finite number", None, "w"),
+    "noise": ("`noise['ruler']` of `q` is -1.0 in row 2", 2, "q"),
+    "covariances": ("`noise['ruler']` of `q` is nan in row 1", 1, "q"),
+}
+
+
+@pytest.mark.parametrize("what", COUNTED)
+def test_what_has_a_name_is_called_by_it_and_rows_count_from_zero(what):
+    with pytest.raises(gv.InputError) as caught:
+        counted(what)
+    error = caught.value
+    assert (error.message, error.row, error.component) == COUNTED[what]
+
+
+def test_words_count_pivots_from_one_and_fields_from_zero():
+    model = gv.Transition(lambda t, dt, x: x, noise_cov=lambda t, dt: [[1, 0], [0, -dt]], state=["x", "v"])
+    sensor = gv.Sensor(lambda t, x: x, measures=["p", "q"], cov=lambda t: [[1, 0], [0, 1 - t]])
+    run = {"t": [0, 0.5, 3], "z": np.zeros((3, 2)), "prior": gv.Gaussian([0, 0], std=[1, 1])}
+    with pytest.raises(gv.StepError, match=r"the process noise covariance is not positive definite at pivot 2 \(state `v`\)") as caught:
+        gv.filter(model, sensor, **run)
+    assert (caught.value.matrix, caught.value.pivot, caught.value.component) == ("process noise covariance", 1, "v")
+    still = gv.Transition(lambda t, dt, x: x, noise_cov=np.eye(2), state=["x", "v"])
+    with pytest.raises(gv.StepError, match=r"the measurement noise .* at pivot 2 \(measure `q`\)") as caught:
+        gv.filter(still, sensor, **run)
+    assert (caught.value.row, caught.value.pivot, caught.value.component) == (2, 1, "q")
+    for cov, said in (
+        ([[1, 2, 0], [2, 1, 0], [0, 0, 1]], "pivot 2 of 3 is negative"),
+        ([[1, 0, 0], [0, 1, 0], [0, 0, -1]], "pivot 3 of 3 is negative"),
+        ([[1, 0, 0], [0, 1, 0], [0, np.inf, 1]], "`cov[2, 1]` is inf"),
+        ([[1, 0, 0], [0, 1, 0], [0, 1, 1]], "0.0 at [1, 2], 1.0 at [2, 1]"),
+    ):
+        with pytest.raises(gv.InputError) as caught:
+            gv.Gaussian(np.zeros(3), cov)
+        assert said in caught.value.message

@@ -250,3 +250,12 @@ def test_models_show_themselves():
     assert repr(model_of()) == "Sde(oscillator, state=[x, v], noises=1, parameters=(omega=1))"
     assert repr(sensor_of()) == "Sensor(ruler, measures=[length], std=[0.1])"
     assert "<th>state</th><td>[x, v]</td>" in model_of()._repr_html_()
+
+
+def test_a_notebook_shows_a_belief_with_its_correlations():
+    plain = gv.Gaussian([0.5, -2e6], std=[2.0, 0.0])._repr_html_()
+    assert "<td>0</td><td>0.5</td><td>2</td>" in plain and "<td>1</td><td>-2e+06</td><td>0</td>" in plain
+    assert "corr." not in plain
+    related = gv.Gaussian([1.0, 2.0, 3.0], [[4.0, 1.0, 0.0], [1.0, 1.0, 0.0], [0.0, 0.0, 0.0]])._repr_html_()
+    assert related.count("corr.") == 2 and "<td>1</td><td>2</td><td>1</td><td>0.5</td><td></td>" in related
+    assert gv.Gaussian(np.zeros(40), std=np.ones(40))._repr_html_().count("<tr>") == 14

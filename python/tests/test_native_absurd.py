@@ -11,7 +11,7 @@ import pytest
 from native_models import MEAN, SPRING, STD, STEPS, TIME, Z, choose
 
 from givens import _native as native
-from givens.errors import GivensError
+from givens.errors import GivensError, InputError
 
 NAN, INF = np.nan, np.inf
 #: What refuses an argument: never a panic, which is no `Exception`.
@@ -42,8 +42,8 @@ def run(model: Any = None, **other: Any) -> Any:
         ({"cov": np.zeros((2, 2, 2))}, "`cov` has shape (2, 2, 2)"),
         ({"cov": np.array(1.0)}, "`cov` has shape ()"),
         ({"cov": np.array([1.0, -1.0])}, "not positive semidefinite"),
-        ({"cov": np.array([[1.0, 2.0], [2.0, 1.0]])}, "(state `v`)"),
-        ({"cov": np.array([[1.0, 2.0], [0.0, 1.0]])}, "a covariance is symmetric"),
+        ({"cov": np.array([[1.0, 2.0], [2.0, 1.0]])}, "at pivot 2 of 2 (state `v`)"),
+        ({"cov": np.array([[1.0, 2.0], [0.0, 1.0]])}, "is not symmetric: [1, 0] and [0, 1] differ (state `v`)"),
         ({"t0": NAN}, "`t0` is NaN"),
         ({"t0": 5.0}, "row 0: time 0.1 is before"),
         ({"time": TIME[::-1]}, "row 1: time"),
@@ -182,7 +182,7 @@ def test_models_refuse_absurd_sizes_and_inputs() -> None:
     refused(lambda: build([], 0, [2.0, 0.1]), "the model has no state")
     refused(lambda: build(["x"], 0, [2.0, 0.1], [nodes.transition[0]]), "component 1 of the state")
     refused(lambda: build(["x", "v"], 0, [2.0], [nodes.transition[0], graph.parameter(5)]), "may not name parameter 5")
-    refused(lambda: build(["x", "v"], 0, [NAN, 1.0]), "parameter 0 is NaN")
+    refused(lambda: build(["x", "v"], 0, [NAN, 1.0]), "`parameters[0]` is NaN")
     refused(lambda: build(["x", "v"], 0, [2.0, 0.1], [graph.control(3), nodes.drift[0]]), "may not name control 3")
     refused(lambda: build(["x", "v"], -1, [2.0, 0.1]))
     refused(lambda: build(["x", "v"], 0, [2.0, 0.1], step=0.0), "not a positive number")
@@ -256,6 +256,16 @@ def test_graphs_refuse_absurd_arguments() -> None:
     assert np.isnan(graph.evaluate([x], empty, 0.0, 0.0, empty, empty)).all()
     refused(lambda: graph.evaluate([99], empty, 0.0, 0.0, empty, empty), "there is no node 99")
     np.testing.assert_array_equal(graph.evaluate([x], np.arange(4.0)[::2], 0.0, 0.0, empty, empty), [0.0])
+
+
+def test_a_graph_that_is_full_is_told() -> None:
+    graph = native.Graph()
+    with pytest.raises(InputError) as caught:
+        for k in range(100_001):
+            graph.constant(k)
+    assert str(caught.value) == (
+        "the expressions have more than 100000 distinct operations\n  help: shorten them, or pass trace=False"
+    )
 
 
 def test_model_files_refuse_absurd_arguments() -> None:

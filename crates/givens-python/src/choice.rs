@@ -4,6 +4,7 @@ use givens::filter::Block;
 use givens::registry::{
     Choice as Chosen, ENTRIES, FormName, Kind, OPTIONS, RuleName, Setting, Value, default_method, resolve,
 };
+use pyo3::exceptions::PyOverflowError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyList, PyString};
 
@@ -26,6 +27,10 @@ fn value(key: &str, given: &Bound<'_, PyAny>) -> Result<Value> {
     let is_number = given.is_instance_of::<PyInt>() || given.is_instance_of::<PyFloat>();
     match given.extract::<f64>() {
         Ok(number) if is_number || given.hasattr("__float__").unwrap_or(false) => Ok(Value::Number(number)),
+        Err(error) if error.is_instance_of::<PyOverflowError>(given.py()) => {
+            let message = format!("`{key}` is a number beyond 1.8e308");
+            Err(Refusal::Method(message, Some(key.to_owned()), Some("give a smaller one".to_owned())))
+        }
         _ => {
             let found = given.get_type().name()?.to_string();
             let message = format!("`{key}` is a number or a word, not {found}");

@@ -128,15 +128,22 @@ pub fn data(error: DataError, measures: &[&String]) -> Refusal {
 
 /// A matrix that is no covariance, or a mean that is not finite.
 pub fn covariance(argument: &'static str, error: InvalidCovariance, states: &[String]) -> Refusal {
-    let at = match error {
-        InvalidCovariance::NotFinite { row, .. } | InvalidCovariance::Asymmetric { row, .. } => Some(row),
-        InvalidCovariance::Indefinite { pivot } => Some(pivot),
-        InvalidCovariance::Length { .. } => None,
+    let (at, what) = match error {
+        InvalidCovariance::NotFinite { row, column } => {
+            (Some(row), format!("is not finite at [{row}, {column}]"))
+        }
+        InvalidCovariance::Asymmetric { row, column } => {
+            (Some(row), format!("is not symmetric: [{row}, {column}] and [{column}, {row}] differ"))
+        }
+        InvalidCovariance::Indefinite { pivot } => {
+            (Some(pivot), format!("is not positive semidefinite at pivot {} of {}", pivot + 1, states.len()))
+        }
+        InvalidCovariance::Length { .. } => (None, format!("has not the shape of one: {error}")),
     };
     let name = at.and_then(|at| states.get(at));
     let of = name.map_or_else(String::new, |name| format!(" (state `{name}`)"));
     let help = "a covariance is finite and symmetric, has no negative variance and no correlation above one";
-    Input::new(argument, format!("the initial belief: {error}{of}")).of(name).help(help).into()
+    Input::new(argument, format!("the initial covariance {what}{of}")).of(name).help(help).into()
 }
 
 impl From<Refusal> for PyErr {

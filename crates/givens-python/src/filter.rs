@@ -88,6 +88,23 @@ impl Filter {
     }
 }
 
+/// A filter that nobody steps meanwhile.
+fn free<'py>(filter: &Bound<'py, Filter>) -> Result<PyRef<'py, Filter>> {
+    Ok(filter.try_borrow().map_err(|_| at_work())?)
+}
+
+/// The same, to step it.
+fn free_mut<'py>(filter: &Bound<'py, Filter>) -> Result<PyRefMut<'py, Filter>> {
+    Ok(filter.try_borrow_mut().map_err(|_| at_work())?)
+}
+
+fn at_work() -> Input {
+    Input::plain(
+        "the filter is at work: another thread, or a function of its own model, cannot use it meanwhile",
+    )
+    .help("give each thread a filter of its own: f.copy()")
+}
+
 #[pymethods]
 impl Filter {
     /// Starts from a belief at `t0`.
@@ -125,84 +142,92 @@ impl Filter {
     }
 
     /// Moves the belief to time `t`.
-    fn predict(&mut self, py: Python<'_>, t: f64) -> Result<()> {
+    fn predict(slf: &Bound<'_, Self>, t: f64) -> Result<()> {
         finite("t", t)?;
-        self.step(py, |filter| filter.predict(t))
+        free_mut(slf)?.step(slf.py(), |filter| filter.predict(t))
     }
 
     /// Teaches the belief a measurement of all sensors, length d; NaN where a component is missing.
-    fn update(&mut self, py: Python<'_>, z: Numbers<'_>) -> Result<()> {
-        let z = shaped("z", &z, &[self.model().measures()])?;
+    fn update(slf: &Bound<'_, Self>, z: Numbers<'_>) -> Result<()> {
+        let mut own = free_mut(slf)?;
+        let z = shaped("z", &z, &[own.model().measures()])?;
         if let Some(i) = z.iter().position(|z| z.is_infinite()) {
-            let name = self.model().known.measures.get(i);
+            let name = own.model().known.measures.get(i);
             let message = format!("measure `{}` is infinite", name.map_or("", String::as_str));
             return Err(Input::new("z", message).of(name).help("a missing component is NaN").into());
         }
-        self.learnt = Learnt::nothing(z.len());
-        self.step(py, |filter| filter.update(&z))?;
-        self.learnt = Learnt::of(self.filter());
+        own.learnt = Learnt::nothing(z.len());
+        own.step(slf.py(), |filter| filter.update(&z))?;
+        own.learnt = Learnt::of(own.filter());
         Ok(())
     }
 
     /// Sets the controls, which hold until they are set again.
-    fn set_controls(&mut self, py: Python<'_>, u: Numbers<'_>) -> Result<()> {
-        let u = shaped("u", &u, &[self.model().controls()])?;
+    fn set_controls(slf: &Bound<'_, Self>, u: Numbers<'_>) -> Result<()> {
+        let mut own = free_mut(slf)?;
+        let u = shaped("u", &u, &[own.model().controls()])?;
         if let Some(i) = u.iter().position(|u| !u.is_finite()) {
-            return Err(Input::new("u", format!("control {i} is {}, not a finite number", u[i])).into());
+            return Err(Input::new("u", format!("`u[{i}]` is {}, not a finite number", u[i])).into());
         }
-        self.step(py, |filter| filter.set_controls(&u))
+        own.step(slf.py(), |filter| filter.set_controls(&u))
     }
 
     #[getter]
-    fn time(&self) -> f64 {
-        self.filter().time()
+    fn time(slf: &Bound<'_, Self>) -> Result<f64> {
+        Ok(free(slf)?.filter().time())
     }
 
     #[getter]
-    fn mean<'py>(&self, py: Python<'py>) -> PyResult<Array<'py>> {
-        frozen(py, self.filter().mean().to_vec(), &[self.filter().states()])
+    fn mean<'py>(slf: &Bound<'py, Self>) -> Result<Array<'py>> {
+        let own = free(slf)?;
+        Ok(frozen(slf.py(), own.filter().mean().to_vec(), &[own.filter().states()])?)
     }
 
     #[getter]
-    fn factor<'py>(&self, py: Python<'py>) -> PyResult<Array<'py>> {
-        let n = self.filter().states();
-        frozen(py, self.filter().factor().to_vec(), &[n, n])
+    fn factor<'py>(slf: &Bound<'py, Self>) -> Result<Array<'py>> {
+        let own = free(slf)?;
+        let n = own.filter().states();
+        Ok(frozen(slf.py(), own.filter().factor().to_vec(), &[n, n])?)
     }
 
     #[getter]
-    fn cov<'py>(&self, py: Python<'py>) -> PyResult<Array<'py>> {
-        let n = self.filter().states();
-        frozen(py, self.filter().cov(), &[n, n])
+    fn cov<'py>(slf: &Bound<'py, Self>) -> Result<Array<'py>> {
+        let own = free(slf)?;
+        let n = own.filter().states();
+        Ok(frozen(slf.py(), own.filter().cov(), &[n, n])?)
     }
 
     #[getter]
-    fn innovation<'py>(&self, py: Python<'py>) -> PyResult<Array<'py>> {
-        frozen(py, self.learnt.innovation.clone(), &[self.filter().measures()])
+    fn innovation<'py>(slf: &Bound<'py, Self>) -> Result<Array<'py>> {
+        let own = free(slf)?;
+        Ok(frozen(slf.py(), own.learnt.innovation.clone(), &[own.filter().measures()])?)
     }
 
     #[getter]
-    fn innovation_cov<'py>(&self, py: Python<'py>) -> PyResult<Array<'py>> {
-        let d = self.filter().measures();
-        frozen(py, self.learnt.innovation_cov.clone(), &[d, d])
+    fn innovation_cov<'py>(slf: &Bound<'py, Self>) -> Result<Array<'py>> {
+        let own = free(slf)?;
+        let d = own.filter().measures();
+        Ok(frozen(slf.py(), own.learnt.innovation_cov.clone(), &[d, d])?)
     }
 
     #[getter]
-    fn nis(&self) -> f64 {
-        self.learnt.nis
+    fn nis(slf: &Bound<'_, Self>) -> Result<f64> {
+        Ok(free(slf)?.learnt.nis)
     }
 
     #[getter]
-    fn nis_dof(&self) -> usize {
-        self.learnt.nis_dof
+    fn nis_dof(slf: &Bound<'_, Self>) -> Result<usize> {
+        Ok(free(slf)?.learnt.nis_dof)
     }
 
     #[getter]
-    fn log_likelihood(&self) -> f64 {
-        self.learnt.log_likelihood
+    fn log_likelihood(slf: &Bound<'_, Self>) -> Result<f64> {
+        Ok(free(slf)?.learnt.log_likelihood)
     }
 
     /// All that it carries, as plain data.
-    fn snapshot<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        snapshot::write(py, self.filter(), &self.learnt)
+    fn snapshot<'py>(slf: &Bound<'py, Self>) -> Result<Bound<'py, PyDict>> {
+        let own = free(slf)?;
+        Ok(snapshot::write(slf.py(), own.filter(), &own.learnt)?)
     }
 }

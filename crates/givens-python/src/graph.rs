@@ -3,9 +3,10 @@
 use givens::model::At;
 use givens_expr::{Binary, Input, Inputs, MAX_NODES, Node, Program, Unary};
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArrayDyn};
-use pyo3::exceptions::{PyOverflowError, PyValueError};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
+use crate::errors::Input as Refused;
 use crate::numbers::numbers;
 
 /// Expressions in which equal subexpressions are one node, known by its number.
@@ -34,12 +35,14 @@ impl Graph {
     /// The node's number, unless the graph is full.
     fn give(&self, node: Node) -> PyResult<u32> {
         if self.graph.is_full() {
-            let message =
-                format!("the expressions have more than {MAX_NODES} distinct operations: shorten them");
-            return Err(PyOverflowError::new_err(message));
+            return Err(too_many(format!("the expressions have more than {MAX_NODES} distinct operations")));
         }
         Ok(node.number())
     }
+}
+
+fn too_many(message: String) -> PyErr {
+    Refused::plain(message).help("shorten them, or pass trace=False").into()
 }
 
 const UNARY: &[(&str, Unary)] = &[
@@ -176,8 +179,7 @@ impl Graph {
         p: PyReadonlyArrayDyn<'py, f64>,
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
         let nodes = self.nodes(&nodes)?;
-        let full = |error: givens_expr::GraphError| PyOverflowError::new_err(error.to_string());
-        let program = Program::compile(&self.graph, &nodes).map_err(full)?;
+        let program = Program::compile(&self.graph, &nodes).map_err(|error| too_many(error.to_string()))?;
         let (x, u, p) = (numbers(&x), numbers(&u), numbers(&p));
         let at = At { t, dt, u: &u, p: &p };
         Ok(program.values(&Inputs { at, x: &x, z: &[] }).into_pyarray(py))

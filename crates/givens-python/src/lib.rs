@@ -2,6 +2,7 @@
 // PyO3 hands arguments over by value
 #![expect(clippy::needless_pass_by_value)]
 
+mod arrow;
 mod choice;
 mod crowd;
 mod errors;
@@ -9,6 +10,7 @@ mod estimates;
 mod failure;
 mod filter;
 mod graph;
+mod memory;
 mod metrics;
 mod model;
 mod numbers;
@@ -25,6 +27,8 @@ use pyo3::prelude::*;
 /// The native half of `givens`; import `givens` instead.
 #[pymodule]
 mod _native {
+    #[pymodule_export]
+    use crate::arrow::{ArrowTable, arrow_stream};
     #[pymodule_export]
     use crate::choice::{Choice, methods, options};
     #[pymodule_export]

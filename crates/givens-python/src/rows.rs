@@ -29,7 +29,8 @@ pub fn rows(
         None => return Err(Input::new("u", format!("the model has {c} controls: give `u`")).into()),
     };
     if let Some(at) = u.iter().position(|u| !u.is_finite()) {
-        let message = format!("row {}: control {} is {}", at / c, at % c, u[at]);
+        // those of traced models have their names in Python, where this has been found out before
+        let message = format!("`u[{}, {}]` is {}, not a finite number", at / c, at % c, u[at]);
         return Err(Input::new("u", message).row(at / c).help("controls are always known").into());
     }
     let mut data_ = Data::with_controls(d, c);

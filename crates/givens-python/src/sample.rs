@@ -1,5 +1,6 @@
 //! Whole trajectories drawn from what a smoother knows of them.
 
+use givens::simulate::Stream;
 use givens::{Draws, Failure, Samples};
 use numpy::{PyArrayDyn, PyReadonlyArrayDyn};
 use pyo3::prelude::*;
@@ -8,6 +9,7 @@ use crate::choice::Choice;
 use crate::crowd::aside;
 use crate::errors::{Refusal, Result};
 use crate::failure::{At, noted, refusal};
+use crate::memory::room;
 use crate::model::{Model, Moves};
 use crate::numbers::frozen;
 use crate::rows::{belief, rows};
@@ -40,6 +42,7 @@ pub fn sample<'py>(
     let prior = belief(model, &mean, &cov)?;
     let data = rows(model, t0, &time, &z, u.as_ref())?;
     let (k, n, count) = (data.len(), model.states(), draws as usize);
+    room("n", draws, k.saturating_mul(n).saturating_mul(8).saturating_add(size_of::<Stream>()))?;
     let draws = Draws { count: draws, seed, track };
     let own = model.clone();
     let draw = move || {

@@ -10,6 +10,7 @@ use pyo3::prelude::*;
 use crate::crowd::{each, threads};
 use crate::errors::{Input, Result};
 use crate::failure::{At, refusal};
+use crate::memory::room;
 use crate::model::{Model, Moves};
 use crate::numbers::frozen;
 use crate::rows::{belief, rows};
@@ -35,20 +36,6 @@ impl Draw<'_> {
             Moves::Continuous(moves) => simulate_continuous(moves, sensing, rows, t0, prior, paths, stream),
         }
     }
-}
-
-/// An error where `runs` of so many numbers, kept twice while they are put together, find no room.
-fn room(runs: u32, numbers: usize) -> Result<()> {
-    let each = numbers.saturating_mul(16).saturating_add(size_of::<Option<Simulation>>());
-    let bytes = each.saturating_mul(runs as usize);
-    if Vec::<u8>::new().try_reserve_exact(bytes).is_ok() {
-        return Ok(());
-    }
-    let message = format!(
-        "`runs` is {runs}: they need {:.3e} bytes at once, more than there is memory for",
-        bytes as f64
-    );
-    Err(Input::new("runs", message).help("draw fewer at a time, each time with another seed").into())
 }
 
 type Arrays<'py> = (Bound<'py, PyArrayDyn<f64>>, Bound<'py, PyArrayDyn<f64>>);
@@ -81,7 +68,9 @@ pub fn simulate<'py>(
     let scheme = if model.is_smooth() { Scheme::ItoTaylor } else { Scheme::EulerMaruyama };
     let paths = Paths { scheme, steps: Steps::Count(substeps) };
     let draw = Draw { model, prior, data, paths, seed, track };
-    room(runs, k * (n + d))?;
+    // numbers are kept twice while they are put together
+    let bytes = k.saturating_mul(n + d).saturating_mul(16).saturating_add(size_of::<Option<Simulation>>());
+    room("runs", runs, bytes)?;
     let threads = if model.needs_python() { 1 } else { self::threads(threads)? };
     let drawn = each(py, runs as usize, threads, |run| draw.run(run as u32));
     let drawn = drawn.map_err(|ended| ended.raised)?;

@@ -12,6 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from givens._trace.order import check_places
+from givens._scalars import shown
 from givens._trace.place import of_function
 from givens.errors import InputError
 
@@ -37,10 +38,18 @@ class Arguments:
 def parameter_value(argument: str, name: str, value: object) -> npt.NDArray[np.float64]:
     """A parameter as an array of finite or infinite numbers, of no dimension if it is one number."""
     try:
-        array = np.array(value, dtype=float)
+        with np.errstate(over="ignore"):
+            array = np.array(value, dtype=float)
+    except OverflowError:
+        raise InputError(
+            f"`{argument}`: the parameter `{name}` is a number beyond 1.8e308",
+            argument=argument,
+            component=name,
+            remedy="measure it in a larger unit",
+        ) from None
     except (TypeError, ValueError):
         raise InputError(
-            f"`{argument}`: the parameter `{name}` is not a number: {value!r}",
+            f"`{argument}`: the parameter `{name}` is not a number: {shown(value)}",
             argument=argument,
             component=name,
             remedy="parameters are floats or arrays of floats; bind others with functools.partial",
@@ -59,7 +68,7 @@ def parameter_value(argument: str, name: str, value: object) -> npt.NDArray[np.f
 def _signature(argument: str, function: Callable[..., Any]) -> inspect.Signature:
     if not callable(function):
         raise InputError(
-            f"`{argument}` is not a function: {function!r}",
+            f"`{argument}` is not a function: {shown(function)}",
             argument=argument,
             remedy=f"write def {argument}(…): return […]",
         )
@@ -67,7 +76,7 @@ def _signature(argument: str, function: Callable[..., Any]) -> inspect.Signature
         return inspect.signature(function)
     except (TypeError, ValueError):
         raise InputError(
-            f"`{argument}`: the arguments of {function!r} cannot be read",
+            f"`{argument}`: the arguments of {shown(function)} cannot be read",
             argument=argument,
             remedy="wrap it: lambda t, x: function(t, x)",
         ) from None

@@ -260,7 +260,7 @@ def _tape(*values: Scalar) -> Tape:
 
 
 def _node(tape: Tape, value: Scalar) -> int:
-    return value.node if isinstance(value, Sym) else tape.constant(float(value))
+    return value.node if isinstance(value, Sym) else _put(tape, "constant", float(value).hex()).node
 
 
 def _put(tape: Tape, *instruction: str | int) -> Sym:

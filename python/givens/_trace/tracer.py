@@ -50,17 +50,21 @@ def _traced_twice(
 ) -> Traced:
     first = _called(function, arguments, sizes, tape, names)
     second = _called(function, arguments, sizes, tape, names)
-    if first.shape != second.shape or _nodes(tape, first) != _nodes(tape, second):
+    nodes = _nodes(tape, first, function)
+    if first.shape != second.shape or nodes != _nodes(tape, second, function):
         raise refuse(
             "called twice with the same arguments, it computes different things",
             "leave out what changes between calls, such as random numbers, the clock and counters",
             of_function(function),
         )
-    return Traced(tape, _nodes(tape, first), first.shape, arguments).pruned()
+    return Traced(tape, nodes, first.shape, arguments).pruned()
 
 
-def _nodes(tape: Tape, result: SymArray) -> tuple[int, ...]:
-    return tuple(value.node if isinstance(value, Sym) else tape.constant(float(value)) for value in result.flat)
+def _nodes(tape: Tape, result: SymArray, function: Callable[..., Any]) -> tuple[int, ...]:
+    try:
+        return tuple(value.node if isinstance(value, Sym) else tape.constant(float(value)) for value in result.flat)
+    except OverflowError as error:
+        raise refuse(str(error), "shorten its loops, or pass trace=False", of_function(function)) from None
 
 
 def _symbols(tape: Tape, kind: str, shape: tuple[int, ...], start: int = 0) -> Any:
@@ -159,7 +163,10 @@ def _answer(result: Any, function: Callable[..., Any], names: tuple[str, ...]) -
             raise refuse(f"it returns a table in which {wrong}", f"its names are {', '.join(names)}", place)
         result = [result[name] for name in names]
     try:
-        return boxed(result)
+        with np.errstate(over="ignore"):
+            return boxed(result)
+    except OverflowError:
+        raise refuse("it returns a number beyond 1.8e308", "measure it in a larger unit", place) from None
     except (ValueError, TraceError):
         said = "it returns something else than an array of numbers"
         raise refuse(said, "return a list of numbers; np.concatenate and np.hstack join arrays", place) from None

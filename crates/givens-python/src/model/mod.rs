@@ -122,7 +122,7 @@ fn named(states: &[String], parameters: &[f64], sensors: &[SensorParts]) -> Resu
         return Err(Input::new("sensors", "a sensor measures nothing").help("name its measures").into());
     }
     if let Some(i) = parameters.iter().position(|value| !value.is_finite()) {
-        let message = format!("parameter {i} is {}, not a finite number", parameters[i]);
+        let message = format!("`parameters[{i}]` is {}, not a finite number", parameters[i]);
         return Err(Input::new("parameters", message).into());
     }
     Ok(())
@@ -197,7 +197,9 @@ impl Model {
         length("parameters", "values of the parameters", self.parameters().len(), values.len())?;
         if let Some(i) = values.iter().position(|value| !value.is_finite()) {
             let name = self.known.parameters.get(i);
-            let message = format!("parameter {i} is {}, not a finite number", values[i]);
+            let called =
+                name.map_or_else(|| format!("`parameters[{i}]`"), |name| format!("parameter `{name}`"));
+            let message = format!("{called} is {}, not a finite number", values[i]);
             return Err(Input::new("parameters", message).of(name).into());
         }
         if let Some(file) = &self.known.file {

@@ -14,6 +14,7 @@ mod memory;
 mod metrics;
 mod model;
 mod numbers;
+mod packs;
 mod rows;
 mod run;
 mod sample;

@@ -13,6 +13,7 @@ use crate::estimates::Estimates;
 use crate::failure::noted;
 use crate::model::{Model, Moves};
 use crate::numbers::numbers;
+use crate::packs::{self, alike};
 use crate::rows::{belief, goal, rows, times};
 use crate::watch::{Watched, detached};
 
@@ -22,14 +23,14 @@ type Numbers<'py> = PyReadonlyArrayDyn<'py, f64>;
 const LONG: usize = 20_000;
 
 /// One run, with all that it needs.
-struct Job {
-    model: Model,
-    choice: Chosen,
-    prior: Gaussian,
-    data: Data,
-    goal: Goal,
+pub struct Job {
+    pub model: Model,
+    pub choice: Chosen,
+    pub prior: Gaussian,
+    pub data: Data,
+    pub goal: Goal,
     /// Times asked for besides.
-    at: Option<Vec<f64>>,
+    pub at: Option<Vec<f64>>,
 }
 
 impl Job {
@@ -130,6 +131,11 @@ pub fn run_batch<'py>(
     };
     let jobs = tracks.iter().enumerate().map(of).collect::<PyResult<Vec<Job>>>()?;
     drop(tracks);
+    if jobs.len() > 1 && alike(&jobs) {
+        let outcomes = packs::run(py, &jobs, self::threads(threads)?)?;
+        let all = jobs.iter().zip(outcomes).map(|(job, outcome)| job.estimates(py, outcome));
+        return Ok(all.collect::<PyResult<Vec<_>>>()?);
+    }
     // one thread has the interpreter at a time: several would only wait for each other
     let alone = jobs.iter().any(|job| job.model.needs_python());
     let threads = self::threads(threads)?;

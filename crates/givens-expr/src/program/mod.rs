@@ -6,6 +6,7 @@
 mod compile;
 mod fuse;
 mod lifetime;
+mod loops;
 mod run;
 
 use givens_core::model::At;

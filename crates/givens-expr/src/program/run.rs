@@ -1,13 +1,13 @@
 //! The machine that runs a program.
 
-use core::array::from_fn;
 use core::cell::Cell;
 
-use givens_core::scalar::Real;
+use givens_core::scalar::{Inside, Real};
 
 use crate::graph::Input;
 use crate::operation::{Binary, Unary, choose};
 
+use super::loops::{BLOCK, map, read, three, two, write, zip, zip3};
 use super::{Code, Given, Inputs, Instruction, Place, Program, Sum};
 
 impl Program {
@@ -101,17 +101,41 @@ impl<T: Real> Source<'_, T> {
     }
 }
 
+/// The instructions of a section, done in one piece: packs need them in a function of their own.
+struct Section<'s, 'm, T> {
+    machine: Machine<'m, T>,
+    code: &'s [Instruction],
+}
+
+impl<T: Real> Inside for Section<'_, '_, T> {
+    type Output = ();
+    #[inline(always)]
+    fn go(self) {
+        for instruction in self.code {
+            self.machine.step(instruction);
+        }
+    }
+}
+
 impl<'m, T: Real> Machine<'m, T> {
-    fn run(&self, code: &[Instruction]) {
-        for instruction in code {
-            match instruction.code {
-                Code::Unary(op) => self.unary(op, instruction),
-                Code::Binary(op) => self.binary(op, instruction),
-                Code::Product(sum) => self.product(sum, instruction),
-                Code::Power(e) => self.power(e, instruction),
-                Code::Select => self.select(instruction),
-                Code::SinCos => self.sin_cos(instruction),
+    fn run(self, code: &[Instruction]) {
+        T::within(Section { machine: self, code });
+    }
+
+    /// One loop for each operation, so that the operation is not chosen again for each point.
+    #[inline(always)]
+    fn step(&self, instruction: &Instruction) {
+        match instruction.code {
+            Code::Unary(op) => self.unary(op, instruction),
+            Code::Binary(op) => self.binary(op, instruction),
+            Code::Product(Sum::Plus) => three!(self, instruction, |a, b, c| a.mul_add(b, c)),
+            Code::Product(Sum::Minus) => three!(self, instruction, |a, b, c| a.mul_add(b, -c)),
+            Code::Product(Sum::From) => three!(self, instruction, |a, b, c| (-a).mul_add(b, c)),
+            Code::Power(e) => {
+                map!(self.row(instruction.results[0]), self.row(instruction.args[0]), |a| a.powi(e));
             }
+            Code::Select => self.select(instruction),
+            Code::SinCos => self.sin_cos(instruction),
         }
     }
 
@@ -133,60 +157,19 @@ impl<'m, T: Real> Machine<'m, T> {
     }
 
     #[inline(always)]
-    fn map(&self, instruction: &Instruction, f: impl Fn(T) -> T) {
-        map(self.row(instruction.results[0]), self.row(instruction.args[0]), f);
-    }
-
-    #[inline(always)]
-    fn zip(&self, instruction: &Instruction, f: impl Fn(T, T) -> T) {
-        let result = self.row(instruction.results[0]);
-        match (self.source(instruction.args[0]), self.source(instruction.args[1])) {
-            (Source::Row(a), Source::Row(b)) => zip(result, a, b, f),
-            (Source::Row(a), Source::Same(b)) => map(result, a, |a| f(a, b)),
-            (Source::Same(a), Source::Row(b)) => map(result, b, |b| f(a, b)),
-            (Source::Same(a), Source::Same(b)) => map(result, result, |_| f(a, b)),
-        }
-    }
-
-    /// The first operand may be the same for all points, the second never is.
-    #[inline(always)]
-    fn zip3(&self, instruction: &Instruction, f: impl Fn(T, T, T) -> T) {
-        let [a, b, c] = instruction.args;
-        let (result, b) = (self.row(instruction.results[0]), self.row(b));
-        match (self.source(a), self.source(c)) {
-            (Source::Row(a), Source::Row(c)) => zip3(result, a, b, c, f),
-            (Source::Row(a), Source::Same(c)) => zip(result, a, b, |a, b| f(a, b, c)),
-            (Source::Same(a), Source::Row(c)) => zip(result, b, c, |b, c| f(a, b, c)),
-            (Source::Same(a), Source::Same(c)) => map(result, b, |b| f(a, b, c)),
-        }
-    }
-
-    #[inline(never)]
-    fn product(&self, sum: Sum, instruction: &Instruction) {
-        match sum {
-            Sum::Plus => self.zip3(instruction, T::mul_add),
-            Sum::Minus => self.zip3(instruction, |a, b, c| a.mul_add(b, -c)),
-            Sum::From => self.zip3(instruction, |a, b, c| (-a).mul_add(b, c)),
-        }
-    }
-
-    #[inline(never)]
-    fn power(&self, e: i32, instruction: &Instruction) {
-        self.map(instruction, |a| a.powi(e));
-    }
-
-    #[inline(never)]
     fn select(&self, instruction: &Instruction) {
-        let [c, a, b] = instruction.args.map(|place| self.source(place));
+        let [c, a, b] = instruction.args;
+        let (c, a, b) = (self.source(c), self.source(a), self.source(b));
         for (i, result) in self.row(instruction.results[0]).iter().enumerate() {
             result.set(choose(c.get(i), a.get(i), b.get(i)));
         }
     }
 
-    #[inline(never)]
+    #[inline(always)]
     fn sin_cos(&self, instruction: &Instruction) {
         let a = self.row(instruction.args[0]);
-        let [sine, cosine] = instruction.results.map(|place| self.row(place));
+        let [sine, cosine] = instruction.results;
+        let (sine, cosine) = (self.row(sine), self.row(cosine));
         for ((a, sine), cosine) in a.iter().zip(sine).zip(cosine) {
             let (s, c) = a.get().sin_cos();
             sine.set(s);
@@ -194,68 +177,45 @@ impl<'m, T: Real> Machine<'m, T> {
         }
     }
 
-    /// One loop for each operation, so that the operation is not chosen again for each point.
-    #[inline(never)]
+    #[inline(always)]
     fn unary(&self, op: Unary, instruction: &Instruction) {
+        let (result, a) = (self.row(instruction.results[0]), self.row(instruction.args[0]));
         macro_rules! loops {
-            ($($op:ident)*) => { match op { $(Unary::$op => self.map(instruction, |a| Unary::$op.apply(a)),)* } };
+            (quick $($quick:ident)*; slow $($slow:ident)*) => {
+                match op {
+                    $(Unary::$quick => map!(result, a, |a| Unary::$quick.apply(a)),)*
+                    $(Unary::$slow => {
+                        for (result, a) in result.iter().zip(a) {
+                            result.set(Unary::$slow.apply(a.get()));
+                        }
+                    })*
+                }
+            };
         }
-        loops!(Neg Abs Sign Floor Sqrt Exp Log Log10 Sin Cos Tan Asin Acos Atan Sinh Cosh Tanh Erf Erfc Not);
+        loops!(
+            quick Neg Abs Sign Floor Sqrt Not;
+            slow Exp Log Log10 Sin Cos Tan Asin Acos Atan Sinh Cosh Tanh Erf Erfc
+        );
     }
 
-    #[inline(never)]
+    #[inline(always)]
     fn binary(&self, op: Binary, instruction: &Instruction) {
         macro_rules! loops {
-            ($($op:ident)*) => { match op { $(Binary::$op => self.zip(instruction, |a, b| Binary::$op.apply(a, b)),)* } };
+            (quick $($quick:ident)*; slow $($slow:ident)*) => {
+                match op {
+                    $(Binary::$quick => two!(self, instruction, |a, b| Binary::$quick.apply(a, b)),)*
+                    $(Binary::$slow => {
+                        let (a, b) = (self.source(instruction.args[0]), self.source(instruction.args[1]));
+                        for (i, result) in self.row(instruction.results[0]).iter().enumerate() {
+                            result.set(Binary::$slow.apply(a.get(i), b.get(i)));
+                        }
+                    })*
+                }
+            };
         }
-        loops!(Add Sub Mul Div Pow Atan2 Hypot Min Max Less LessEqual Equal And Or Scale);
-    }
-}
-
-/// Points that are worked out side by side: all of a block is read before it is written, so that nothing hinders
-/// the machine from doing so, even where a row is operand and result.
-const BLOCK: usize = 4;
-
-#[inline(always)]
-fn map<T: Real>(result: &[Cell<T>], a: &[Cell<T>], f: impl Fn(T) -> T) {
-    let (blocks, rest) = result.as_chunks::<BLOCK>();
-    let (a, a_rest) = a.as_chunks::<BLOCK>();
-    for (block, a) in blocks.iter().zip(a) {
-        write(block, from_fn(|k| f(a[k].get())));
-    }
-    for (result, a) in rest.iter().zip(a_rest) {
-        result.set(f(a.get()));
-    }
-}
-
-#[inline(always)]
-fn zip<T: Real>(result: &[Cell<T>], a: &[Cell<T>], b: &[Cell<T>], f: impl Fn(T, T) -> T) {
-    let (blocks, rest) = result.as_chunks::<BLOCK>();
-    let ((a, a_rest), (b, b_rest)) = (a.as_chunks::<BLOCK>(), b.as_chunks::<BLOCK>());
-    for ((block, a), b) in blocks.iter().zip(a).zip(b) {
-        write(block, from_fn(|k| f(a[k].get(), b[k].get())));
-    }
-    for ((result, a), b) in rest.iter().zip(a_rest).zip(b_rest) {
-        result.set(f(a.get(), b.get()));
-    }
-}
-
-#[inline(always)]
-fn zip3<T: Real>(result: &[Cell<T>], a: &[Cell<T>], b: &[Cell<T>], c: &[Cell<T>], f: impl Fn(T, T, T) -> T) {
-    let (blocks, rest) = result.as_chunks::<BLOCK>();
-    let ((a, a_rest), (b, b_rest)) = (a.as_chunks::<BLOCK>(), b.as_chunks::<BLOCK>());
-    let (c, c_rest) = c.as_chunks::<BLOCK>();
-    for (((block, a), b), c) in blocks.iter().zip(a).zip(b).zip(c) {
-        write(block, from_fn(|k| f(a[k].get(), b[k].get(), c[k].get())));
-    }
-    for (((result, a), b), c) in rest.iter().zip(a_rest).zip(b_rest).zip(c_rest) {
-        result.set(f(a.get(), b.get(), c.get()));
-    }
-}
-
-#[inline(always)]
-fn write<T: Real>(block: &[Cell<T>; BLOCK], values: [T; BLOCK]) {
-    for (cell, value) in block.iter().zip(values) {
-        cell.set(value);
+        loops!(
+            quick Add Sub Mul Div Min Max Less LessEqual Equal And Or Scale;
+            slow Pow Atan2 Hypot
+        );
     }
 }

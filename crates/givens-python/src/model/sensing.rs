@@ -51,6 +51,11 @@ impl Sensing {
         Self(Arc::new(Way::Called(model)))
     }
 
+    /// Tells sensors of the same graphs or functions.
+    pub fn origin(&self) -> usize {
+        Arc::as_ptr(&self.0).addr()
+    }
+
     /// The functions, if some are called.
     pub fn functions(&self) -> Option<&Called> {
         match &*self.0 {

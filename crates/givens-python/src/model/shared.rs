@@ -36,6 +36,11 @@ impl<T, C> Shared<T, C> {
         }
     }
 
+    /// Tells models of the same graphs or functions, whatever their parameters.
+    pub fn origin(&self) -> usize {
+        Arc::as_ptr(&self.way).addr()
+    }
+
     /// The same with other values, as many as there are.
     pub fn with(&self, parameters: Vec<f64>) -> Self {
         Self { way: Arc::clone(&self.way), parameters }

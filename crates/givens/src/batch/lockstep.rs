@@ -8,6 +8,7 @@ use crate::rule::Rule;
 use crate::run::{Goal, Outcome, Stop, stopped};
 use crate::scalar::{InstructionSet, Job, LaneMask, MAX_WIDTH, Mask, Pack};
 use crate::smoother::{History, Smoothed};
+use core::ops::ControlFlow;
 
 /// Tracks over one model and its sensors, at most as many as a pack has lanes.
 pub(super) struct Lockstep<'s, 't, X, M, H> {
@@ -72,7 +73,11 @@ impl<X: Over<M>, M, H: Observation> Job<f64> for Lockstep<'_, '_, X, M, H> {
             let done = history.smooth(&filter, longest - 1, |_, smoothed: &Smoothed<P>| {
                 way.extend_from_slice(smoothed.belief.mean);
                 way.extend_from_slice(smoothed.belief.factor);
+                if stopped(stop) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
             });
+            if stopped(stop) {
+                return nothing();
+            }
             well &= if done.is_ok() { lanes.smoothed(&way) } else { 0 };
         }
         lanes.finish(well)

@@ -169,8 +169,8 @@ impl Batch<'_> {
             return None;
         }
         let Track { model, sensors, data, prior, parameters, at } = *track;
-        let (rows, t0) = (data.rows(), data.start());
-        run_until(method, model, sensors, rows, t0, prior, parameters, self.goal, at, self.cancel)
+        let (rows, t0) = (data.rows().collect::<Vec<_>>(), data.start());
+        run_until(method, model, sensors, &rows, t0, prior, parameters, self.goal, at, self.cancel)
     }
 }
 

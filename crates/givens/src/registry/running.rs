@@ -5,10 +5,10 @@ use super::dispatch::Job;
 use crate::Row;
 use crate::filter::{Fault, Gaussian, Over, StepError};
 use crate::model::{AnyObservation, AnySde, AnyTransition, Observation, Sde, Transition};
-use crate::run::{Goal, Outcome, run_at};
+use crate::run::{Goal, Outcome, run_until};
 
 impl Choice {
-    /// Runs a discrete method over a trajectory, `at` these times besides; see [`run_at()`]. A continuous one fails at the first row.
+    /// Runs a discrete method over a trajectory, `at` these times besides; see [`run_at`](crate::run_at). A continuous one fails at the first row.
     pub fn run<'a, M: Transition + Sync, H: Observation + Sync>(
         &self,
         model: &M,
@@ -24,7 +24,7 @@ impl Choice {
         self.run_any(Span { model, sensors, rows: &rows, t0, prior, goal, at })
     }
 
-    /// Runs a continuous method over a trajectory, `at` these times besides; see [`run_at()`]. A discrete one fails at the first row.
+    /// Runs a continuous method over a trajectory, `at` these times besides; see [`run_at`](crate::run_at). A discrete one fails at the first row.
     pub fn run_continuous<'a, M: Sde + Sync, H: Observation + Sync>(
         &self,
         model: &M,
@@ -79,7 +79,8 @@ impl<M> Span<'_, M> {
 impl<M> Job<M> for Span<'_, M> {
     type Done = Outcome;
     fn with<X: Over<M> + Send + Sync + 'static>(self, method: X) -> Outcome {
-        let rows = self.rows.iter().copied();
-        run_at(method, self.model, self.sensors, rows, self.t0, self.prior, self.goal, self.at)
+        let outcome = Outcome::new(self.prior.mean().len(), self.sensors.measures(), self.goal);
+        let Span { model, sensors, rows, t0, prior, goal, at } = self;
+        run_until(method, model, sensors, rows, t0, prior, &[], goal, at, None).unwrap_or(outcome)
     }
 }

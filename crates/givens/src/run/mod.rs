@@ -76,7 +76,7 @@ pub fn run<'a, X: Over<M>, M, H: Observation>(
     method: X,
     model: &M,
     sensors: &H,
-    rows: impl Iterator<Item = Row<'a>> + Clone,
+    rows: impl Iterator<Item = Row<'a>>,
     t0: f64,
     prior: &Gaussian,
     goal: Goal,
@@ -108,23 +108,24 @@ pub fn run_at<'a, X: Over<M>, M, H: Observation>(
     method: X,
     model: &M,
     sensors: &H,
-    rows: impl Iterator<Item = Row<'a>> + Clone,
+    rows: impl Iterator<Item = Row<'a>>,
     t0: f64,
     prior: &Gaussian,
     goal: Goal,
     at: &[f64],
 ) -> Outcome {
-    run_until(method, model, sensors, rows, t0, prior, &[], goal, at, None)
+    let rows: Vec<Row> = rows.collect();
+    run_until(method, model, sensors, &rows, t0, prior, &[], goal, at, None)
         .unwrap_or_else(|| Outcome::new(prior.mean().len(), sensors.measures(), goal))
 }
 
 /// [`run_at`] with parameters in place of the model's, if there are any, that is cancelled when `stop` is set: then there is no
 /// outcome.
-pub(crate) fn run_until<'a, X: Over<M>, M, H: Observation>(
+pub(crate) fn run_until<X: Over<M>, M, H: Observation>(
     method: X,
     model: &M,
     sensors: &H,
-    rows: impl Iterator<Item = Row<'a>> + Clone,
+    rows: &[Row],
     t0: f64,
     prior: &Gaussian,
     parameters: &[f64],
@@ -136,7 +137,7 @@ pub(crate) fn run_until<'a, X: Over<M>, M, H: Observation>(
     let wanted = if matches!(goal, Goal::Filter | Goal::Interval) { at } else { &[] };
     let out = &outcome.estimates;
     let between = Between::new(wanted, Estimates::new(out.states(), out.measures(), out.is_smoothed()));
-    let count = if goal == Goal::Filter { 0 } else { rows.clone().count() };
+    let count = if goal == Goal::Filter { 0 } else { rows.len() };
     match Recorder::start(method, model, sensors, t0, prior, parameters, goal, count, between, stop) {
         Ok(mut recorder) => {
             recorder.forward(rows, &mut outcome);

@@ -87,10 +87,10 @@ impl<'t, 'm, X: Over<M>, M, H: Observation> Recorder<'t, 'm, X, M, H> {
     }
 
     /// Takes in all rows, up to one that fails, and goes on to the times that are wanted behind the last.
-    pub fn forward<'a>(&mut self, rows: impl Iterator<Item = Row<'a>>, outcome: &mut Outcome) {
+    pub fn forward(&mut self, rows: &[Row], outcome: &mut Outcome) {
         let (mut before, stop) = (None, self.stop);
-        outcome.estimates.reserve(rows.size_hint().0);
-        for (k, row) in rows.take_while(|_| !stopped(stop)).enumerate() {
+        outcome.estimates.reserve(rows.len());
+        for (k, &row) in rows.iter().take_while(|_| !stopped(stop)).enumerate() {
             if let Err(error) = self.row(before, row, &mut outcome.estimates) {
                 outcome.failure = Some((k, error));
                 outcome.failed_at = self.filter.mean().to_vec();

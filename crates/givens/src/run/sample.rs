@@ -94,18 +94,19 @@ pub fn sample<'a, X: Over<M>, M, H: Observation>(
     method: X,
     model: &M,
     sensors: &H,
-    rows: impl Iterator<Item = Row<'a>> + Clone,
+    rows: impl Iterator<Item = Row<'a>>,
     t0: f64,
     prior: &Gaussian,
     draws: Draws,
 ) -> Result<Samples, Failure> {
-    let (n, d, count) = (prior.mean().len(), sensors.measures(), rows.clone().count());
+    let rows: Vec<Row> = rows.collect();
+    let (n, d, count) = (prior.mean().len(), sensors.measures(), rows.len());
     let mut outcome = Outcome::new(n, d, Goal::Interval);
     let between = Between::new(&[], Estimates::new(n, d, true));
     let started =
         Recorder::start(method, model, sensors, t0, prior, &[], Goal::Interval, count, between, None);
     let drawn = started.map_err(|error| (0, error)).and_then(|mut recorder| {
-        recorder.forward(rows, &mut outcome);
+        recorder.forward(&rows, &mut outcome);
         match outcome.failure {
             Some(failure) => Err(failure),
             None => recorder.draw(&outcome.estimates, draws),

@@ -6,7 +6,7 @@ import warnings
 
 import numpy as np
 import pytest
-from test_running import LENGTH, MODEL, PRIOR, RNG, SPEED, Z3, T, Z, frames, run, same
+from test_running import LENGTH, MODEL, PRIOR, RNG, SPEED, Z3, T, Z, alike, frames, run, same
 
 import givens as gv
 
@@ -43,8 +43,8 @@ def test_a_mask_hides_wherever_it_stands():
     expected = run(z=missing)
     for given in (masked, list(masked), {"ruler": masked}, [{"ruler": one} for one in masked]):
         np.testing.assert_array_equal(run(z=given).mean, expected.mean)
-    same(run(z=list(masked[0])), expected[0])
-    same(run(z=[[row[0]] for row in masked[0]]), expected[0])
+    alike(run(z=list(masked[0])), expected[0])
+    alike(run(z=[[row[0]] for row in masked[0]]), expected[0])
     u = hidden(np.zeros((3, 2)), (1, 0))
     with pytest.raises(gv.InputError, match="`u` of `e` is nan in row 1"):
         gv.filter(PUSHED, BOTH, [0, 1, 2], Z2, prior=WIDE, u=u)
@@ -114,7 +114,7 @@ def test_a_point_is_the_same_date_for_tracks_that_begin_on_different_ones():
     batch = gv.smooth(WALK, BOTH, times, z, prior=WIDE, point=DAYS[1])
     for k in range(2):
         alone = gv.smooth(WALK, BOTH, times[k], z[k], prior=WIDE, point=DAYS[1])
-        same(batch[k], alone)
+        alike(batch[k], alone)
         assert batch[k].time[0] == DAYS[1]
 
 
@@ -123,7 +123,7 @@ def test_frames_are_read_by_the_names_of_their_columns(frame):
     swapped = frame({"q": Z2[:, 1], "p": Z2[:, 0]})
     same(walk(z=swapped), walk())
     same(walk(z={"both": swapped}), walk())
-    same(walk(z=[swapped, swapped])[1], walk())
+    alike(walk(z=[swapped, swapped])[1], walk())
     noise = np.column_stack([np.full(3, 0.5), np.full(3, 5.0)])
     same(walk(noise=frame({"q": noise[:, 1], "p": noise[:, 0]})), walk(noise=noise))
     u = np.column_stack([np.full(3, 0.1), np.full(3, 100.0)])
@@ -141,7 +141,7 @@ def test_a_frame_of_pandas_may_have_its_times_beside_its_columns():
     named = pandas.DataFrame(columns, index=pandas.Index([0.0, 1.0, 2.0], name="time"))
     same(gv.filter(WALK, BOTH, named, prior=WIDE), walk())
     index = pandas.MultiIndex.from_arrays([["k"] * 3, [0.0, 1.0, 2.0]], names=["track_id", "time"])
-    same(gv.filter(WALK, BOTH, pandas.DataFrame(columns, index=index), prior=WIDE).track("k"), walk())
+    alike(gv.filter(WALK, BOTH, pandas.DataFrame(columns, index=index), prior=WIDE).track("k"), walk())
     same(walk(z=pandas.DataFrame(Z2)), walk())
 
 
@@ -151,8 +151,8 @@ def test_parameters_that_are_arrays_are_set_for_all_or_for_each():
 
     expected = gv.filter(SCALED.with_params(w=[1.0, 1.5]), BOTH, [0, 1, 2], Z2, prior=WIDE)
     same(scaled(Z2, [1.0, 1.5]), expected)
-    same(scaled(np.stack([Z2, Z2]), [1.0, 1.5])[1], expected)
-    same(scaled(np.stack([Z2, Z2]), np.array([[1.0, 1.0], [1.0, 1.5]]))[1], expected)
+    alike(scaled(np.stack([Z2, Z2]), [1.0, 1.5])[1], expected)
+    alike(scaled(np.stack([Z2, Z2]), np.array([[1.0, 1.0], [1.0, 1.5]]))[1], expected)
 
 
 def test_noise_of_as_many_rows_as_runs_is_the_same_for_all():
@@ -160,7 +160,7 @@ def test_noise_of_as_many_rows_as_runs_is_the_same_for_all():
     z = RNG.normal(size=(3, 3, 1))
     for noise in (std, np.stack([std] * 3), [std] * 3, {"ruler": std}):
         batch = run(t=[0, 1, 2], z=z, t0=0.0, noise=noise)
-        same(batch[2], run(t=[0, 1, 2], z=z[2], t0=0.0, noise=std))
+        alike(batch[2], run(t=[0, 1, 2], z=z[2], t0=0.0, noise=std))
 
 
 def test_no_tracks_are_a_batch_of_none():

@@ -639,8 +639,8 @@ def test_words_count_pivots_from_one_and_fields_from_zero():
         gv.filter(still, sensor, **run)
     assert (caught.value.row, caught.value.pivot, caught.value.component) == (2, 1, "q")
     for cov, said in (
-        ([[1, 2, 0], [2, 1, 0], [0, 0, 1]], "pivot 2 of 3 is negative"),
-        ([[1, 0, 0], [0, 1, 0], [0, 0, -1]], "pivot 3 of 3 is negative"),
+        ([[1, 2, 0], [2, 1, 0], [0, 0, 1]], "not positive semidefinite at pivot 2 of 3"),
+        ([[1, 0, 0], [0, 1, 0], [0, 0, -1]], "not positive semidefinite at pivot 3 of 3"),
         ([[1, 0, 0], [0, 1, 0], [0, np.inf, 1]], "`cov[2, 1]` is inf"),
         ([[1, 0, 0], [0, 1, 0], [0, 1, 1]], "0.0 at [1, 2], 1.0 at [2, 1]"),
     ):

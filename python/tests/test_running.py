@@ -28,6 +28,12 @@ def same(a, b):
     np.testing.assert_array_equal(a.cov, b.cov)
 
 
+def alike(a, b):
+    """The same but for rounding: one of them ran in a pack beside others."""
+    np.testing.assert_allclose(a.mean, b.mean, rtol=1e-11, atol=1e-12)
+    np.testing.assert_allclose(a.cov, b.cov, rtol=1e-11, atol=1e-12)
+
+
 def test_missing_is_nan_or_masked_whole_or_in_part():
     z = Z3.copy()
     z[3], z[5, 1] = np.nan, np.nan
@@ -97,14 +103,14 @@ def test_a_batch_is_its_runs():
     batch = run(z=z)
     assert len(batch) == 3 and batch.mean.shape == (3, 20, 2) and not batch.failed
     for k in range(3):
-        same(batch[k], run(z=z[k]))
+        alike(batch[k], run(z=z[k]))
     np.testing.assert_array_equal(run(z=z, threads=1).mean, batch.mean)
     assert batch[:2].mean.shape == (2, 20, 2)
 
 
 def test_a_batch_may_be_ragged():
     batch = gv.filter(MODEL, LENGTH, [T, T[:7]], [Z, Z[:7]], prior=PRIOR)
-    same(batch[1], run(t=T[:7], z=Z[:7], t0=T[0]))
+    alike(batch[1], run(t=T[:7], z=Z[:7], t0=T[0]))
     with pytest.raises(gv.InputError, match="7 to 20 rows"):
         _ = batch.mean
 
@@ -112,8 +118,8 @@ def test_a_batch_may_be_ragged():
 def test_a_batch_has_its_own_priors_and_parameters():
     priors = [PRIOR, gv.Gaussian([0.0, 0.0], std=[2.0, 2.0])]
     batch = run(z=np.stack([Z, Z]), prior=priors, params={"k": [1.0, 1.5]})
-    same(batch[0], run())
-    same(batch[1], gv.filter(MODEL.with_params(k=1.5), LENGTH, T, Z, prior=priors[1], t0=T[0]))
+    alike(batch[0], run())
+    alike(batch[1], gv.filter(MODEL.with_params(k=1.5), LENGTH, T, Z, prior=priors[1], t0=T[0]))
 
 
 def test_one_track_that_fails_leaves_the_others():
@@ -158,7 +164,7 @@ def test_tables_are_read_by_their_columns(frame):
     same(expected, gv.filter(MODEL, [LENGTH, SPEED], frame(table()), prior=PRIOR))
     batch = gv.filter(MODEL, [LENGTH, SPEED], frame(table(tracks=True)), prior=PRIOR)
     assert batch.track_ids == ["a", "b"]
-    same(batch.track("b"), expected)
+    alike(batch.track("b"), expected)
 
 
 @pytest.mark.parametrize("frame", frames(), ids=["dict", "pandas", "polars", "pyarrow"])

@@ -12,6 +12,7 @@ mod gauss_hermite;
 mod moments;
 mod pairs;
 mod points;
+mod table;
 mod taylor;
 mod unscented;
 

@@ -84,14 +84,17 @@ impl<X: Over<M>, M, H: Observation> Job<f64> for Lockstep<'_, '_, X, M, H> {
     }
 }
 
-/// A filter over packs, and the lanes whose track has begun in it. A track that could not begin is left to be run alone, which
+/// A filter over packs.
+type OfPacks<'m, X, M, P> = Filter<'m, X, M, P, Vec<P>>;
+
+/// It, and the lanes whose track has begun in it. A track that could not begin is left to be run alone, which
 /// says why.
 #[inline(always)]
 fn begin<'m, P: Pack<Element = f64>, X: Over<M>, M, H: Observation>(
     method: X,
     tracks: &[Track<'m, M, H>],
     goal: Goal,
-) -> Option<(Filter<'m, X, M, P, Vec<P>>, u32)> {
+) -> Option<(OfPacks<'m, X, M, P>, u32)> {
     let smoothing = goal != Goal::Filter;
     let Track { model, sensors, .. } = *tracks.first()?;
     let sizes = method.sizes(model).ok()?;
@@ -104,7 +107,7 @@ fn begin<'m, P: Pack<Element = f64>, X: Over<M>, M, H: Observation>(
     };
     let len = Filter::<X, M, P, Vec<P>>::memory_len(&method, sizes, smoothing);
     let mut one = vec![0.0; len];
-    let mut filter: Option<Filter<'m, X, M, P, Vec<P>>> = None;
+    let mut filter: Option<OfPacks<'m, X, M, P>> = None;
     let mut begun = 0;
     for (lane, track) in tracks.iter().enumerate() {
         if track.data.measures() != sensors.measures() || track.data.controls() != sizes.controls {

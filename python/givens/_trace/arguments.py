@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from givens._trace.order import check_places
 from givens._scalars import shown
+from givens._trace.order import check_places
 from givens._trace.place import of_function
 from givens.errors import InputError
 

@@ -1,6 +1,6 @@
 //! Rules integrate polynomials of a Gaussian to their degree.
 
-use givens::model::{At, Linear, Map, linear_by_duals, linear_scratch};
+use givens::model::{At, AtPoint, Linear, Map, linear_by_duals, linear_scratch};
 use givens::rule::{
     CentralDifference, Cubature3, Cubature5, GaussHermite, Rule, Spread, Taylor, Unscented, spread_scratch,
 };
@@ -40,7 +40,13 @@ impl Map for Polynomial {
         }
     }
     fn linear<T: Real>(&self, at: &At<T>, x: &[T], s: &[T], out: Linear<T>, scratch: &mut [T]) {
-        linear_by_duals(1, at, x, s, out, scratch, |_, x, y| y[0] = self.at(x));
+        linear_by_duals(1, at, x, s, out, scratch, self);
+    }
+}
+
+impl AtPoint for Polynomial {
+    fn at_point<T: Real>(&self, _: &At<T>, x: &[T], out: &mut [T]) {
+        out[0] = self.at(x);
     }
 }
 

@@ -4,7 +4,7 @@ use super::field::{Field, Method, finite};
 use super::segment::{Segment, Visit};
 use super::{Steps, Stop, System, Why, Work};
 use crate::model::At;
-use crate::scalar::Real;
+use crate::scalar::{Inside, Real};
 
 /// How many steps a gap takes, if not more than `limit`. The count is that of the first lane.
 #[inline(always)]
@@ -21,42 +21,49 @@ fn count<T: Real>(steps: Steps, gap: f64, limit: usize) -> Option<usize> {
     (1..=limit).contains(&count).then_some(count)
 }
 
-/// Integrates over the gap; `end` has the length of the state, `curve` three times that.
-#[inline(always)]
-pub(super) fn fixed<T: Real, S: System, M: Method<T, S>>(
-    method: &mut M,
-    field: &mut Field<S, T>,
-    at: &At<T>,
-    (steps, limit): (Steps, usize),
-    y: &mut [T],
-    mut visit: Visit<T>,
-    work: &mut Work,
-    (end, curve): (&mut [T], &mut [T]),
-) -> Result<(), Stop<S::Fault>> {
-    let gap = at.dt.first();
-    let Some(count) = count::<T>(steps, gap, limit) else {
-        return Err(Stop { time: at.t.first(), smallest: gap.abs(), why: Why::StepLimit { limit } });
-    };
-    let h = at.dt / T::of(count as f64);
-    let time = |k: usize| T::of(k as f64).mul_add(h, at.t);
-    let stop = |k: usize, why| Stop { time: time(k).first(), smallest: h.first().abs(), why };
-    method.start(field, at.t, y).map_err(|failed| stop(0, failed.into()))?;
-    for k in 0..count {
-        let step = method.step(field, time(k), h, y, end).and_then(|()| finite(end));
-        step.map_err(|failed| stop(k, failed.into()))?;
-        let last = k + 1 == count;
-        // the slope at the end of the gap serves dense output alone
-        let slope = (!last || visit.is_some()).then(|| method.finish(field, time(k + 1), end));
-        if let Some(visit) = visit.as_deref_mut() {
-            method.curve(h, y, end, matches!(slope, Some(Ok(()))), curve);
-            visit(&Segment { t: time(k).first(), h: h.first(), start: y, end, curve });
+/// An integration over a gap; `end` has the length of the state, `curve` three times that.
+pub(super) struct Fixed<'s, 'f, 'v, T, S, M> {
+    pub method: &'s mut M,
+    pub field: &'s mut Field<'f, S, T>,
+    pub at: &'s At<'s, T>,
+    pub steps: (Steps, usize),
+    pub y: &'s mut [T],
+    pub visit: Visit<'v, T>,
+    pub work: &'s mut Work,
+    pub end: &'s mut [T],
+    pub curve: &'s mut [T],
+}
+
+impl<T: Real, S: System, M: Method<T, S>> Inside for Fixed<'_, '_, '_, T, S, M> {
+    type Output = Result<(), Stop<S::Fault>>;
+    #[inline(always)]
+    fn go(self) -> Self::Output {
+        let Self { method, field, at, steps: (steps, limit), y, mut visit, work, end, curve } = self;
+        let gap = at.dt.first();
+        let Some(count) = count::<T>(steps, gap, limit) else {
+            return Err(Stop { time: at.t.first(), smallest: gap.abs(), why: Why::StepLimit { limit } });
+        };
+        let h = at.dt / T::of(count as f64);
+        let time = |k: usize| T::of(k as f64).mul_add(h, at.t);
+        let stop = |k: usize, why| Stop { time: time(k).first(), smallest: h.first().abs(), why };
+        method.start(field, at.t, y).map_err(|failed| stop(0, failed.into()))?;
+        for k in 0..count {
+            let step = method.step(field, time(k), h, y, end).and_then(|()| finite(end));
+            step.map_err(|failed| stop(k, failed.into()))?;
+            let last = k + 1 == count;
+            // the slope at the end of the gap serves dense output alone
+            let slope = (!last || visit.is_some()).then(|| method.finish(field, time(k + 1), end));
+            if let Some(visit) = visit.as_deref_mut() {
+                method.curve(h, y, end, matches!(slope, Some(Ok(()))), curve);
+                visit(&Segment { t: time(k).first(), h: h.first(), start: y, end, curve });
+            }
+            y.copy_from_slice(end);
+            work.accepted += 1;
+            if let (Some(Err(failed)), false) = (slope, last) {
+                return Err(stop(k + 1, failed.into()));
+            }
+            method.accept();
         }
-        y.copy_from_slice(end);
-        work.accepted += 1;
-        if let (Some(Err(failed)), false) = (slope, last) {
-            return Err(stop(k + 1, failed.into()));
-        }
-        method.accept();
+        Ok(())
     }
-    Ok(())
 }

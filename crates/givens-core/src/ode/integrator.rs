@@ -3,7 +3,7 @@
 use super::adaptive::{Bounds, adaptive};
 use super::explicit::{Explicit, explicit_scratch};
 use super::field::Field;
-use super::fixed::fixed;
+use super::fixed::Fixed;
 use super::rosenbrock::{Rosenbrock, rosenbrock_scratch};
 use super::segment::{Segment, Visit};
 use super::tableau::{DP5, EULER, RK2, RK4, Tableau};
@@ -165,7 +165,6 @@ impl Integrator {
     ///
     /// # Errors
     /// Where and why the integration ended early; `y` is then the state at that time.
-    #[inline(always)]
     pub fn solve<T: Real, S: System>(
         &self,
         system: &S,
@@ -183,7 +182,6 @@ impl Integrator {
     ///
     /// # Errors
     /// As there.
-    #[inline(always)]
     pub fn advance<T: Real, S: System>(
         &self,
         system: &S,
@@ -196,7 +194,6 @@ impl Integrator {
         self.run(system, at, table, y, work, None, scratch)
     }
 
-    #[inline(always)]
     fn run<T: Real, S: System>(
         &self,
         system: &S,
@@ -241,7 +238,18 @@ impl Integrator {
                     adaptive(&mut method, &mut field, at, &bounds, y, visit, work, memory)
                 } else {
                     let steps = (self.steps, self.limit);
-                    fixed(&mut method, &mut field, at, steps, y, visit, work, (memory.0, memory.2))
+                    let (end, _, curve) = memory;
+                    T::within(Fixed {
+                        method: &mut method,
+                        field: &mut field,
+                        at,
+                        steps,
+                        y,
+                        visit,
+                        work,
+                        end,
+                        curve,
+                    })
                 }
             }
         };

@@ -99,7 +99,6 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
     ///
     /// # Errors
     /// Those of [`Filter::predict`], or a filter that does not go with this history; nothing is recorded then.
-    #[inline(always)]
     pub fn predict<X: Over<M>, M, C: Grow<T>>(
         &mut self,
         filter: &mut Filter<'_, X, M, T, C>,

@@ -70,7 +70,9 @@ def simulate(
     runs : int, optional
         How many trajectories; without it one, in arrays of two dimensions.
     substeps : int, optional
-        Steps for each gap of a continuous model.
+        Equal steps in each gap of a continuous model, by Itô and Taylor. They must be short against the fastest
+        motion of the drift: too few draw from another model, without a word, or end in a `StepError`. Where gaps are
+        long, double them until nothing changes.
 
     Returns
     -------

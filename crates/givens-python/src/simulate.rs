@@ -1,14 +1,14 @@
 //! Trajectories drawn from a model.
 
 use givens::Data;
-use givens::filter::{Gaussian, StepError};
+use givens::filter::{Fault, Gaussian, Quantity, StepError};
 use givens::ode::Steps;
 use givens::simulate::{Paths, Scheme, Simulation, Stream, simulate as draw, simulate_continuous};
 use numpy::{PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 
 use crate::crowd::{each, threads};
-use crate::errors::{Input, Result};
+use crate::errors::{Input, Refusal, Result};
 use crate::failure::{At, refusal};
 use crate::memory::room;
 use crate::model::{Model, Moves};
@@ -78,11 +78,28 @@ pub fn simulate<'py>(
     for one in drawn {
         let one = one.map_err(|error| {
             let at = At { row: Some(error.step), mean: &[] };
-            refusal(py, model, None, &error, at)
+            longer(refusal(py, model, None, &error, at), &error, substeps)
         })?;
         states.extend_from_slice(&one.states);
         measured.extend_from_slice(&one.z);
     }
     let runs = runs as usize;
     Ok((frozen(py, states, &[runs, k, n])?, frozen(py, measured, &[runs, k, d])?))
+}
+
+/// A drift that ran away has most often been followed in steps that are too long.
+fn longer(refusal: Refusal, error: &StepError, substeps: usize) -> Refusal {
+    use Quantity::{Drift, DriftDerivative, Estimate};
+    match (refusal, error.fault) {
+        (
+            Refusal::Step(message, _, fields),
+            Fault::NotFinite { quantity: Drift | DriftDerivative | Estimate, .. },
+        ) => {
+            let more = format!(
+                "more steps in each gap, substeps=… (it took {substeps}): they must be short against the motion of the drift"
+            );
+            Refusal::Step(message, Some(more), fields)
+        }
+        (refusal, _) => refusal,
+    }
 }

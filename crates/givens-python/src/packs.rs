@@ -3,6 +3,7 @@
 use core::num::NonZeroUsize;
 use core::sync::atomic::{AtomicBool, Ordering};
 use std::collections::HashMap;
+use std::sync::Arc;
 use std::sync::mpsc::{self, RecvTimeoutError};
 use std::thread;
 
@@ -32,11 +33,11 @@ pub fn alike(jobs: &[Job]) -> bool {
 
 /// Runs jobs that are [`alike`]; a signal cancels them.
 pub fn run(py: Python<'_>, jobs: &[Job], threads: usize) -> PyResult<Vec<Outcome>> {
-    let stop = AtomicBool::new(false);
+    let stop = Arc::new(AtomicBool::new(false));
     let done = py.detach(|| {
         let (send, receive) = mpsc::channel();
         thread::scope(|scope| {
-            let (stop, work) = (&stop, move |stop: &AtomicBool| all(jobs, threads, stop));
+            let (stop, work) = (&stop, move |stop: &Arc<AtomicBool>| all(jobs, threads, stop));
             // nobody listens after a signal
             let spawned = thread::Builder::new().spawn_scoped(scope, move || drop(send.send(work(stop))));
             spawned.map_err(|error| Input::plain(format!("no thread could be started: {error}")))?;
@@ -63,7 +64,7 @@ pub fn run(py: Python<'_>, jobs: &[Job], threads: usize) -> PyResult<Vec<Outcome
 }
 
 /// What comes of each; nothing of those that were not done when they were stopped.
-fn all(jobs: &[Job], threads: usize, stop: &AtomicBool) -> Vec<Option<Outcome>> {
+fn all(jobs: &[Job], threads: usize, stop: &Arc<AtomicBool>) -> Vec<Option<Outcome>> {
     let Some(first) = jobs.first() else { return Vec::new() };
     let batch = Batch {
         goal: first.goal,
@@ -77,35 +78,47 @@ fn all(jobs: &[Job], threads: usize, stop: &AtomicBool) -> Vec<Option<Outcome>> 
                 Moves::Discrete(model) => Some(model),
                 Moves::Continuous(_) => None,
             });
-            let models = in_common(models, Discrete::origin);
-            first.choice.run_batch(&tracks(jobs, &models), &batch)
+            let (of, models) = in_common(models, Discrete::origin);
+            let models: Vec<_> = models.into_iter().map(|model| model.until(stop)).collect();
+            first.choice.run_batch(&tracks(jobs, &of, &models), &batch)
         }
         Moves::Continuous(_) => {
             let models = jobs.iter().filter_map(|job| match &job.model.moves {
                 Moves::Continuous(model) => Some(model),
                 Moves::Discrete(_) => None,
             });
-            let models = in_common(models, Continuous::origin);
-            first.choice.run_batch_continuous(&tracks(jobs, &models), &batch)
+            let (of, models) = in_common(models, Continuous::origin);
+            let models: Vec<_> = models.into_iter().map(|model| model.until(stop)).collect();
+            first.choice.run_batch_continuous(&tracks(jobs, &of, &models), &batch)
         }
     }
 }
 
-/// For each model the first one of the same graphs: those with other parameters go with it.
-fn in_common<'m, M>(models: impl Iterator<Item = &'m M>, origin: impl Fn(&M) -> usize) -> Vec<&'m M> {
-    let mut first: HashMap<usize, &'m M> = HashMap::new();
-    models.map(|model| *first.entry(origin(model)).or_insert(model)).collect()
+/// The models of different graphs, and which of them each one is: those with other parameters go with it.
+fn in_common<'m, M>(
+    models: impl Iterator<Item = &'m M>,
+    origin: impl Fn(&M) -> usize,
+) -> (Vec<usize>, Vec<&'m M>) {
+    let (mut seen, mut all) = (HashMap::new(), Vec::new());
+    let which = |model: &'m M| {
+        *seen.entry(origin(model)).or_insert_with(|| {
+            all.push(model);
+            all.len() - 1
+        })
+    };
+    let of = models.map(which).collect();
+    (of, all)
 }
 
-fn tracks<'j, M>(jobs: &'j [Job], models: &[&'j M]) -> Vec<Track<'j, M, Sensing>> {
-    let sensors = in_common(jobs.iter().map(|job| &job.model.sensing), Sensing::origin);
-    let track = |((job, &model), sensors): ((&'j Job, &&'j M), &'j Sensing)| Track {
-        model,
-        sensors,
+fn tracks<'j, M>(jobs: &'j [Job], of: &[usize], models: &'j [M]) -> Vec<Track<'j, M, Sensing>> {
+    let (of_sensors, sensors) = in_common(jobs.iter().map(|job| &job.model.sensing), Sensing::origin);
+    let track = |((job, &model), &sensor): ((&'j Job, &usize), &usize)| Track {
+        model: &models[model],
+        sensors: sensors[sensor],
         data: &job.data,
         prior: &job.prior,
         parameters: job.model.parameters(),
         at: job.at.as_deref().unwrap_or_default(),
     };
-    jobs.iter().zip(models).zip(sensors).map(track).collect()
+    jobs.iter().zip(of).zip(&of_sensors).map(track).collect()
 }

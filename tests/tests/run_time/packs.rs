@@ -3,7 +3,10 @@
 use core::num::NonZeroUsize;
 use givens::batch::{Batch, InstructionSet, Track};
 use givens::filter::Gaussian;
+use givens::model::zoo::Components;
+use givens::model::{At, Noise, Observation, Transition};
 use givens::registry::{Choice, Setting, resolve};
+use givens::scalar::Real;
 use givens::{Data, Goal, Outcome};
 use givens_tests::choices::{choices, continuous_choices};
 use givens_tests::models::{Motion, Normals, Problem, Sensor};
@@ -194,5 +197,101 @@ fn tracks_of_several_models_and_priors_find_their_own() {
     for (k, (found, expected)) in found.iter().zip(&expected).enumerate() {
         let apart = apart(found.as_ref().unwrap(), expected.as_ref().unwrap());
         assert!(apart < 1e-11, "track {k}: {apart:e}");
+    }
+}
+
+/// z = x and z = ln x, of which the second is no number below zero.
+struct Logarithm;
+
+impl Observation for Logarithm {
+    fn states(&self) -> usize {
+        1
+    }
+    fn measures(&self) -> usize {
+        2
+    }
+    fn observe<T: Real>(&self, _: &At<T>, x: &[T], out: &mut [T]) {
+        (out[0], out[1]) = (x[0], x[0].ln());
+    }
+    fn noise(&self) -> Noise {
+        Noise::Root(2)
+    }
+    fn measurement_noise<T: Real>(&self, _: &At<T>, out: &mut [T]) {
+        out.fill(T::zero());
+        (out[0], out[3]) = (T::one(), T::one());
+    }
+}
+
+/// A state that stays, but for noise.
+struct Stays(f64);
+
+impl Transition for Stays {
+    fn states(&self) -> usize {
+        1
+    }
+    fn transition<T: Real>(&self, _: &At<T>, x: &[T], out: &mut [T]) {
+        out[0] = x[0];
+    }
+    fn noise(&self) -> Noise {
+        Noise::Root(1)
+    }
+    fn process_noise<T: Real>(&self, _: &At<T>, out: &mut [T]) {
+        out[0] = T::of(self.0);
+    }
+}
+
+#[test]
+fn a_pack_of_which_every_lane_fails_at_once_is_its_tracks_alone() {
+    let nan = f64::NAN;
+    let row = |k: usize, z: [f64; 2]| (k as f64, z);
+    let far = [row(0, [0.0, nan]), row(1, [-1e3, nan]), row(2, [0.0, 0.0])];
+    let near = [row(0, [0.0, nan]), row(1, [0.0, nan]), row(2, [0.0, 0.0])];
+    let data: Vec<Data> = (0..8)
+        .map(|k| {
+            let mut data = Data::new(2).starting_at(0.0);
+            for (t, z) in if k < 4 { far } else { near } {
+                data.push(t, &z).unwrap();
+            }
+            data
+        })
+        .collect();
+    let (model, prior) = (Stays(0.3), Gaussian::from_std(&[1.0], &[0.1]).unwrap());
+    let tracks: Vec<_> = data.iter().map(|data| Track::new(&model, &Logarithm, data, &prior)).collect();
+    for name in ["sr-ckf", "sr-ekf"] {
+        let choice = resolve(name, &[]).unwrap();
+        for goal in [Goal::Filter, Goal::Interval] {
+            let expected = choice.run_batch(&tracks, &Batch { goal, ..alone() });
+            let found = choice.run_batch(&tracks, &Batch { goal, ..Batch::default() });
+            for (k, (found, expected)) in found.iter().zip(&expected).enumerate() {
+                assert_eq!(expected.as_ref().unwrap().failure.is_some(), k < 4, "{name}, track {k}");
+                let apart = apart(found.as_ref().unwrap(), expected.as_ref().unwrap());
+                assert!(apart < 1e-10, "{name} {goal:?}, track {k}: {apart:e}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_squared_innovation_that_overflows_is_a_fault_in_a_pack_too() {
+    let (model, sensor) = (Stays(0.0), Components { states: 1, which: [0], std: [1.0] });
+    let data: Vec<Data> = (0..2)
+        .map(|k| {
+            let mut data = Data::new(1).starting_at(0.0);
+            for row in 0..3 {
+                let z = if k == 0 && row == 2 { 1e160 } else { 0.0 };
+                data.push(f64::from(row), &[z]).unwrap();
+            }
+            data
+        })
+        .collect();
+    for deviation in [0.0, 1.0] {
+        let prior = Gaussian::from_std(&[0.0], &[deviation]).unwrap();
+        let tracks: Vec<_> = data.iter().map(|data| Track::new(&model, &sensor, data, &prior)).collect();
+        let choice = resolve("sr-ckf", &[]).unwrap();
+        let found = choice.run_batch(&tracks, &Batch::default());
+        let expected = choice.run_batch(&tracks, &alone());
+        assert_eq!(found[0].as_ref().unwrap().failure.map(|(row, _)| row), Some(2), "σ = {deviation}");
+        assert_eq!(format!("{:?}", found[0]), format!("{:?}", expected[0]));
+        assert!(found[1].as_ref().unwrap().failure.is_none());
     }
 }

@@ -125,9 +125,13 @@ impl<X: Over<M>, M, P: Pack, B: Grow<P>> Filter<'_, X, M, P, B> {
         for (i, &t) in t.iter().take(P::WIDTH).enumerate() {
             at = at.with_lane(i, P::Element::of(t));
         }
+        // where every lane fails, there is no innovation: not that of the row before
+        self.present = 0;
         self.parts().scores.fill(P::zero());
-        let done = self.learn(sensor, at, Present::Lanes(present));
-        done.map_or(everybody, |sick| sick | !self.all_finite())
+        let Ok(sick) = self.learn(sensor, at, Present::Lanes(present)) else { return everybody };
+        // a squared innovation that overflows is a fault also where the state is known, and the belief stays
+        let scored = self.parts().scores[0].finite();
+        sick | !(scored & self.all_finite())
     }
 
     /// Sets the controls of each lane, which hold until they are set again. False, and nothing done, if there are not as

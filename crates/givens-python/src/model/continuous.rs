@@ -6,7 +6,6 @@ use givens_expr::ModelSde;
 
 use super::part::Part;
 use super::shared::{Shared, Way};
-use crate::watch::go_on;
 
 /// dx = f dt + G dβ, however it was given.
 pub type Continuous = Shared<ModelSde, Called>;
@@ -51,7 +50,7 @@ impl Sde for Continuous {
     }
 
     fn drift<T: Real>(&self, at: &At<T>, x: &[T], dx: &mut [T]) {
-        if !go_on() {
+        if !self.goes_on() {
             return dx.fill(T::of(f64::NAN));
         }
         match &*self.way {
@@ -82,7 +81,7 @@ impl Sde for Continuous {
     }
 
     fn drift_points<T: Real>(&self, at: &At<T>, points: usize, x: &[T], out: &mut [T], scratch: &mut [T]) {
-        if !go_on() {
+        if !self.goes_on() {
             return out.fill(T::of(f64::NAN));
         }
         match &*self.way {
@@ -92,7 +91,7 @@ impl Sde for Continuous {
     }
 
     fn drift_linear<T: Real>(&self, at: &At<T>, x: &[T], s: &[T], out: Linear<T>, scratch: &mut [T]) {
-        if !go_on() {
+        if !self.goes_on() {
             return out.value.fill(T::of(f64::NAN));
         }
         match &*self.way {
@@ -118,7 +117,7 @@ impl Sde for Continuous {
         lf: &mut [T],
         scratch: &mut [T],
     ) {
-        if !go_on() {
+        if !self.goes_on() {
             return f.fill(T::of(f64::NAN));
         }
         match &*self.way {

@@ -6,7 +6,6 @@ use givens_expr::ModelTransition;
 
 use super::part::Part;
 use super::shared::{Shared, Way};
-use crate::watch::go_on;
 
 /// x(t + dt) = f + w, however it was given.
 pub type Discrete = Shared<ModelTransition, Called>;
@@ -50,7 +49,7 @@ impl Transition for Discrete {
     }
 
     fn transition<T: Real>(&self, at: &At<T>, x: &[T], out: &mut [T]) {
-        if !go_on() {
+        if !self.goes_on() {
             return out.fill(T::of(f64::NAN));
         }
         match &*self.way {
@@ -88,7 +87,7 @@ impl Transition for Discrete {
         out: &mut [T],
         scratch: &mut [T],
     ) {
-        if !go_on() {
+        if !self.goes_on() {
             return out.fill(T::of(f64::NAN));
         }
         match &*self.way {
@@ -98,7 +97,7 @@ impl Transition for Discrete {
     }
 
     fn transition_linear<T: Real>(&self, at: &At<T>, x: &[T], s: &[T], out: Linear<T>, scratch: &mut [T]) {
-        if !go_on() {
+        if !self.goes_on() {
             return out.value.fill(T::of(f64::NAN));
         }
         match &*self.way {

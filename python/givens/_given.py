@@ -9,9 +9,11 @@ from typing import Any
 import numpy as np
 
 from givens._arrays import dimensions, unmasked
+from givens._by_track import by_track
 from givens._frames import is_frame
 from givens._join import Joined
 from givens._names import known_name
+from givens._scalars import shown
 from givens.errors import InputError
 
 __all__ = ["Given", "each_of", "parameters_by_run", "split"]
@@ -131,11 +133,14 @@ def _is_noise(given: Any, rows: int, d: int) -> bool:
     return shape in ((rows, d), (rows, d, d)) or (d == 1 and shape == (rows,))
 
 
-def each_of(argument: str, given: Any, runs: int, batch: bool, kind: type) -> list[Any]:
-    """One for each run: given so, or the same for all."""
+def each_of(argument: str, given: Any, tracks: Sequence[Any], batch: bool, kind: type) -> list[Any]:
+    """One for each track: given so, by name or in their order, or the same for all."""
+    runs = len(tracks)
+    if batch and isinstance(given, Mapping):
+        return by_track(f"`{argument}`", given, tracks)
     if not isinstance(given, (list, tuple)):
         return [given] * runs
-    if not batch or len(given) != runs or not all(isinstance(one, kind) for one in given):
+    if not batch or len(given) != runs:
         what = f"one for each of {runs} tracks" if batch else f"one {kind.__name__}"
         raise InputError(
             f"`{argument}` is a {type(given).__name__} of {len(given)}, not {what}",
@@ -146,13 +151,20 @@ def each_of(argument: str, given: Any, runs: int, batch: bool, kind: type) -> li
 
 
 def parameters_by_run(
-    params: Mapping[str, Any], own: Mapping[str, tuple[int, ...]], runs: int, batch: bool
+    params: Mapping[str, Any], own: Mapping[str, tuple[int, ...]], tracks: Sequence[Any], batch: bool
 ) -> list[dict[str, Any]]:
-    """The values of each track: those of a parameter's `own` shape are for all, with one dimension more for each."""
+    """The values of each track: those of a parameter's `own` shape are for all, with one dimension more for each.
+
+    A table has them by the names of the tracks.
+    """
     if not params:
         return []
+    runs = len(tracks)
     values: list[dict[str, Any]] = [{} for _ in range(runs)]
     for name, given in params.items():
+        if isinstance(given, Mapping) and name in own:
+            _by_name(values, name, given, own[name], tracks, batch)
+            continue
         shape = np.shape(given) if dimensions(given) >= 0 else ()
         wanted = own.get(name, ())
         several = batch and shape == (runs, *wanted)
@@ -167,6 +179,34 @@ def parameters_by_run(
         for k in range(runs):
             values[k][name] = given[k] if several else given
     return values
+
+
+def _by_name(
+    values: list[dict[str, Any]],
+    name: str,
+    given: Mapping[Any, Any],
+    wanted: tuple[int, ...],
+    tracks: Sequence[Any],
+    batch: bool,
+) -> None:
+    """Puts the values of one parameter, by the names of the tracks, into those of each track."""
+    if not batch:
+        raise InputError(
+            f"`params`: `{name}` is a table by track, but there is one track",
+            argument="params",
+            component=name,
+            remedy=_remedy(wanted, batch),
+        )
+    for track, own, value in zip(tracks, values, by_track(f"`params` of `{name}`", given, tracks), strict=True):
+        shape = np.shape(value) if dimensions(value) >= 0 else ()
+        if shape != wanted:
+            raise InputError(
+                f"`params`: `{name}` of the track {shown(track)} has shape {shape}, not {wanted}",
+                argument="params",
+                component=name,
+                remedy=_remedy(wanted, False),
+            )
+        own[name] = value
 
 
 def _remedy(wanted: Sequence[int], batch: bool) -> str:

@@ -111,9 +111,10 @@ def plan(
         )
     else:
         given, batch = split(plain, t, z, u, noise)
-    priors = each_of("prior", prior, len(given), batch, Gaussian)
+    names = [k if track.id is None else track.id for k, track in enumerate(given)]
+    priors = each_of("prior", prior, names, batch, Gaussian)
     table = mapping("params", params, "params={name: value}")
-    values = parameters_by_run(table, _shapes(model, sensors), len(given), batch)
+    values = parameters_by_run(table, _shapes(model, sensors), names, batch)
     tracks: list[Track] = []
     for k, track in enumerate(given):
         joined = plain
@@ -235,12 +236,13 @@ def _of_file(
         )
     read = _native.read_tracks(model.native, path)
     tracks = []
-    for one in read["tracks"]:
+    priors = each_of("prior", prior, [one["id"] for one in read["tracks"]], read["has_track_id"], Gaussian)
+    for one, own in zip(read["tracks"], priors, strict=True):
         clock = Clock() if one["origin"] is None else Clock(np.datetime64(one["origin"].removesuffix("Z"), "ns"), None)
         times = Times(one["time"], clock.shown(one["time"]))
         mean, cov, start, before, z = one["mean"], one["cov"], one["t0"], one["row"], one["z"]
-        if prior is not None:
-            (mean, cov), before = read_prior(model, prior, joined.states), 0
+        if own is not None:
+            (mean, cov), before = read_prior(model, own, joined.states), 0
             start = start if t0 is None else clock.moment("t0", t0)
         elif one["started"]:
             z = np.array(z)

@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from givens import _native
 from givens._arrays import Array
+from givens._by_track import near_track
 from givens._plan import Goal, Track
 from givens._sampling import draws
 from givens._scalars import seed_of, shown, threads_of, whole
@@ -113,7 +114,7 @@ class Batch(Stacked):
             return self._estimates[self.track_ids.index(name)]
         except ValueError:
             raise InputError(
-                f"there is no track {shown(name)}", argument="name", remedy=f"there are {self.track_ids[:10]}"
+                f"there is no track {shown(name)}", argument="name", remedy=near_track(name, self.track_ids)
             ) from None
 
     @property

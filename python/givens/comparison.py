@@ -113,7 +113,7 @@ def compare(
     t: Any,
     z: Any = None,
     *,
-    prior: Gaussian | Sequence[Gaussian] | None = None,
+    prior: Gaussian | Sequence[Gaussian] | Mapping[Any, Gaussian] | None = None,
     methods: Sequence[str],
     truth: npt.ArrayLike | None = None,
     options: Mapping[str, Mapping[str, Any]] | None = None,

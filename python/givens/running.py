@@ -27,7 +27,7 @@ def filter(
     t: Any,
     z: Any = None,
     *,
-    prior: Gaussian | Sequence[Gaussian] | None = None,
+    prior: Gaussian | Sequence[Gaussian] | Mapping[Any, Gaussian] | None = None,
     method: str | None = None,
     t0: Any = None,
     u: Any = None,
@@ -57,7 +57,8 @@ def filter(
         any asks for the prediction. Of a batch: shape
         (runs, rows, d), or a list with an array for each run, with `t` of shape (rows,) or a list as well.
     prior : Gaussian
-        The belief at `t0`; of a batch also a list with one for each run.
+        The belief at `t0`; of a batch also a list with one for each track, in the order of `Batch.track_ids`, or a
+        table by their names: ``{"a": gv.Gaussian(…), "b": gv.Gaussian(…)}``.
     method : str, optional
         A name of `methods`; by default ``"sr-cd-ckf"`` or ``"sr-ckf"``.
     t0 : float or date, optional
@@ -70,7 +71,8 @@ def filter(
         Standard deviations (rows, d) or covariances (rows, d, d) of the errors, row by row, in place of the sensor's
         own; of several sensors a table by name.
     params : mapping, optional
-        Values of parameters by name; of a batch also arrays with one dimension more, one value for each run.
+        Values of parameters by name; of a batch also arrays with one dimension more, one value for each track in the
+        order of `Batch.track_ids`, or tables by their names: ``{"k": {"a": 1.0, "b": 2.0}}``.
     threads : int, optional
         Threads for a batch; by default as many as there are cores. Estimates do not depend on it.
     **options
@@ -116,7 +118,7 @@ def smooth(
     t: Any,
     z: Any = None,
     *,
-    prior: Gaussian | Sequence[Gaussian] | None = None,
+    prior: Gaussian | Sequence[Gaussian] | Mapping[Any, Gaussian] | None = None,
     method: str | None = None,
     lag: int | None = None,
     point: Any = None,

@@ -1,0 +1,82 @@
+"""What is given and said of the tracks of a batch by their names."""
+
+import numpy as np
+import pytest
+from test_running import LENGTH, MODEL, PRIOR, T, Z, same
+
+import givens as gv
+
+NEAR = gv.Gaussian([1.0, 0.1], std=[0.3, 0.2])
+
+
+def table(names=("b", "a")):
+    """Two tracks, of which the second in the alphabet comes first."""
+    return {"time": np.tile(T, 2), "length": np.tile(Z[:, 0], 2), "track_id": np.repeat(names, 20)}
+
+
+def run(data=None, **options):
+    return gv.filter(MODEL, LENGTH, table() if data is None else data, **{"prior": PRIOR, **options})
+
+
+def test_priors_and_parameters_by_track_go_to_the_track_of_that_name():
+    named = run(prior={"a": PRIOR, "b": NEAR}, params={"k": {"a": 1.0, "b": 2.0}})
+    assert named.track_ids == ["b", "a"]
+    same(named.track("b"), run(prior=NEAR, params={"k": 2.0}).track("b"))
+    same(named.track("a"), run().track("a"))
+
+
+def test_lists_go_in_the_order_of_track_ids():
+    listed = run(prior=[NEAR, PRIOR], params={"k": [2.0, 1.0]})
+    named = run(prior={"a": PRIOR, "b": NEAR}, params={"k": {"a": 1.0, "b": 2.0}})
+    assert listed.track_ids == ["b", "a"]
+    for name in "ab":
+        same(listed.track(name), named.track(name))
+
+
+def test_tracks_without_names_are_called_by_their_numbers():
+    named = gv.filter(MODEL, LENGTH, T, [Z, Z], prior={1: NEAR, 0: PRIOR}, params={"k": {0: 1.0, 1: 2.0}})
+    same(named[1], gv.filter(MODEL, LENGTH, T, [Z, Z], prior=NEAR, params={"k": 2.0})[1])
+
+
+MANY = {"time": np.zeros(30), "length": np.zeros(30), "track_id": [f"ship {k}" for k in range(30)]}
+CASES = [
+    (
+        lambda: run(prior={"a": PRIOR}),
+        "`prior` has nothing for the track 'b'\n  help: give one for each track",
+    ),
+    (
+        lambda: run(data=table(("boat", "car")), prior={"bot": PRIOR, "car": PRIOR}),
+        "`prior` is for the track 'bot', of which there is none\n  help: did you mean 'boat'?",
+    ),
+    (
+        lambda: run(params={"k": {"a": 1.0, "b": 1.0, "zz": 1.0}}),
+        "`params` of `k` is for the track 'zz', of which there is none\n  help: there are 'b', 'a'",
+    ),
+    (
+        lambda: run(params={"k": {"a": 1.0, "b": [1.0, 2.0]}}),
+        "`params`: `k` of the track 'b' has shape (2,), not ()\n  help: give one number",
+    ),
+    (
+        lambda: gv.filter(MODEL, LENGTH, T, Z, prior=PRIOR, params={"k": {"a": 1.0}}),
+        "`params`: `k` is a table by track, but there is one track\n  help: give one number",
+    ),
+    (
+        lambda: run(data=MANY, prior={"ship 0": PRIOR}),
+        "`prior` has nothing for the tracks 'ship 1', 'ship 2', 'ship 3', 'ship 4', 'ship 5', … (29 in all)\n"
+        "  help: give one for each track",
+    ),
+    (
+        lambda: run(data=MANY).track("zz"),
+        "there is no track 'zz'\n"
+        "  help: there are 'ship 0', 'ship 1', 'ship 2', 'ship 3', 'ship 4', … (30 in all)",
+    ),
+]
+
+
+@pytest.mark.parametrize("case", CASES, ids=range(len(CASES)))
+def test_what_does_not_fit_the_tracks_is_told_with_its_remedy(case):
+    wrong, expected = case
+    with pytest.raises(gv.InputError) as caught:
+        wrong()
+    assert str(caught.value) == expected
+    assert caught.value.argument in ("prior", "params", "name")

@@ -9,9 +9,10 @@ import numpy as np
 
 from givens._arrays import Array, dimensions, numbers, shape_error
 from givens._covariance import check_rows
-from givens._frames import numbers_by_name
+from givens._frames import is_frame, numbers_by_name
 from givens._join import Joined, named_sensor
 from givens._names import known_name, listed
+from givens._shared import refuse_shared
 from givens.errors import InputError
 
 __all__ = ["controls_of", "measured", "noise_shapes", "with_noise"]
@@ -27,6 +28,8 @@ def measured(joined: Joined, z: Any, rows: int) -> Array:
             columns = joined.measures[place]
             stacked[:, place] = _rows(f"z[{name!r}]", values, rows, columns)
         return stacked
+    if is_frame(z):
+        refuse_shared(joined, "give a table for each sensor: z={name: table}, or give the measures other names")
     return _rows("z", z, rows, joined.measures)
 
 

@@ -13,6 +13,7 @@ from givens._frames import columns_of
 from givens._join import Joined
 from givens._names import known_name, listed
 from givens._scalars import shown
+from givens._shared import refuse_shared, refuse_shared_rows
 from givens.errors import InputError
 
 __all__ = ["is_table", "rows_by_track"]
@@ -149,13 +150,18 @@ def _measures(joined: Joined, columns: Mapping[str, Any], rows: int) -> Array:
             argument="z",
             remedy="name the columns as the measures are named",
         )
-    if _SENSOR in columns:
+    if _SENSOR not in columns:
+        refuse_shared(
+            joined, "add a column `sensor` that names the sensor of each row, or give the measures other names"
+        )
+    else:
         of = [name if name is None or isinstance(name, str) else shown(name) for name in _words(columns[_SENSOR])]
         for sensor in {name for name in of if name}:
             known_name("sensor", sensor, tuple(joined.sensors), "sensor")
         for sensor, place in joined.sensors.items():
             others = np.array([name is not None and name != sensor for name in of])
             z[others, place] = np.nan
+        refuse_shared_rows(joined, np.array([name is None for name in of], dtype=bool), z)
     return z
 
 

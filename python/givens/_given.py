@@ -30,6 +30,8 @@ class Given:
     prior: Any = None
     parameters: Mapping[str, Any] | None = None
     id: Any = None
+    #: Rows of the table that those of the track are.
+    rows: Sequence[int] | None = None
 
 
 def split(joined: Joined, t: Any, z: Any, u: Any, noise: Any) -> tuple[list[Given], bool]:

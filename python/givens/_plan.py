@@ -15,6 +15,7 @@ from givens._capsules import framed
 from givens._clock import Clock, Times, clock_of
 from givens._dynamics import Parametric
 from givens._given import Given, each_of, parameters_by_run, split
+from givens._in_track import in_track
 from givens._join import Joined, join, refuse_steep, sensors_of
 from givens._rows import controls_of, measured, noise_shapes, with_noise
 from givens._scalars import mapping, shown, text
@@ -52,6 +53,8 @@ class Track:
     z: Array
     u: Array | None
     id: Any = None
+    #: Rows of the table that those of the track are.
+    rows: Sequence[int] | None = None
     #: Rows before the belief holds, for which there is no answer.
     before: int = 0
 
@@ -98,7 +101,10 @@ def plan(
     widths = {name: place.stop - place.start for name, place in plain.sensors.items()}
     if z is None and is_table(t):
         rows = rows_by_track(plain, t)
-        given = [Given(track["time"], track["z"], track["u"] if u is None else u, id=track["id"]) for track in rows]
+        given = [
+            Given(track["time"], track["z"], track["u"] if u is None else u, id=track["id"], rows=track["rows"])
+            for track in rows
+        ]
         batch = not given or given[0].id is not None
         if noise is not None and batch:
             raise InputError(
@@ -117,17 +123,12 @@ def plan(
     values = parameters_by_run(table, _shapes(model, sensors), names, batch)
     tracks: list[Track] = []
     for k, track in enumerate(given):
-        joined = plain
-        shapes = noise_shapes(track.noise, widths)
-        if shapes or values:
-            joined = join(*with_parameters(model, sensors, values[k]) if values else (model, sensors), shapes)
-        track = replace(track, prior=priors[k])
-        try:
-            tracks.append(_track(model, joined, choice, track, t0))
-        except InputError as error:
-            if batch:
-                error.add_note(f"in track {k if track.id is None else track.id}")
-            raise
+        with in_track(names[k], track.rows, batch):
+            joined = plain
+            shapes = noise_shapes(track.noise, widths)
+            if shapes or values:
+                joined = join(*with_parameters(model, sensors, values[k]) if values else (model, sensors), shapes)
+            tracks.append(_track(model, joined, choice, replace(track, prior=priors[k]), t0))
     return tracks, batch
 
 
@@ -184,11 +185,11 @@ def _track(model: Any, joined: Joined, choice: _native.Choice, given: Given, t0:
     z = measured(joined, given.z, rows)
     u = with_noise(joined, controls_of(joined, given.u, rows), given.noise, z)
     if given.prior is None and isinstance(model, ModelFile) and t0 is None:
-        return _begun(model, joined, choice, clock, times, z, u, given.id)
+        return _begun(model, joined, choice, clock, times, z, u, given)
     mean, cov = read_prior(model, given.prior, joined.states)
     if start is None and isinstance(model, ModelFile):
         start = model.time
-    return Track(joined, choice, clock, mean, cov, start, times, z, u, given.id)
+    return Track(joined, choice, clock, mean, cov, start, times, z, u, given.id, given.rows)
 
 
 def _begun(
@@ -199,14 +200,14 @@ def _begun(
     times: Times,
     z: Array,
     u: Array | None,
-    id: Any,
+    given: Given,
 ) -> Track:
     """A track whose belief stands in the model file, or is found from its first rows."""
     t0, mean, cov, row, started = model.native.begin(times.seconds, z, u)
     if started:
         z = z.copy()
         z[row] = np.nan
-    return Track(joined, choice, clock, mean, cov, t0, times, z, u, id, before=row)
+    return Track(joined, choice, clock, mean, cov, t0, times, z, u, given.id, given.rows, row)
 
 
 def read_prior(model: Any, prior: Any, states: Sequence[str]) -> tuple[Array, Array]:
@@ -248,5 +249,5 @@ def _of_file(
             z = np.array(z)
             z[before] = np.nan
         u = one["u"] if joined.controls else None
-        tracks.append(Track(joined, choice, clock, mean, cov, start, times, z, u, one["id"], before))
+        tracks.append(Track(joined, choice, clock, mean, cov, start, times, z, u, one["id"], None, before))
     return tracks, read["has_track_id"]

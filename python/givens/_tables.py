@@ -82,7 +82,7 @@ def _words(column: Any) -> list[Any]:
 
 
 def rows_by_track(joined: Joined, table: Any) -> list[dict[str, Any]]:
-    """The rows of each track, in the order in which tracks appear: `id`, `time`, `z`, `u`."""
+    """The rows of each track, in the order in which tracks appear: `id`, `time`, `z`, `u`, `rows` of the table."""
     columns = _Columns(table)
     time = next((columns[name] for name in _TIME if name in columns), None)
     if time is None:
@@ -101,7 +101,7 @@ def rows_by_track(joined: Joined, table: Any) -> list[dict[str, Any]]:
     z = _measures(joined, columns, rows)
     u = _controls(joined, columns, rows)
     if _TRACK not in columns:
-        return [{"id": None, "time": times, "z": z, "u": u}]
+        return [{"id": None, "time": times, "z": z, "u": u, "rows": None}]
     found: dict[Any, list[int]] = {}
     for row, track in enumerate(_words(columns[_TRACK])):
         if track is None:
@@ -121,7 +121,8 @@ def rows_by_track(joined: Joined, table: Any) -> list[dict[str, Any]]:
                 remedy="name tracks by words or whole numbers",
             ) from None
     return [
-        {"id": track, "time": times[of], "z": z[of], "u": None if u is None else u[of]} for track, of in found.items()
+        {"id": track, "time": times[of], "z": z[of], "u": None if u is None else u[of], "rows": of}
+        for track, of in found.items()
     ]
 
 

@@ -11,6 +11,7 @@ import numpy.typing as npt
 from givens import _native
 from givens._arrays import Array
 from givens._by_track import near_track
+from givens._in_track import tell, told_by_number
 from givens._plan import Goal, Track
 from givens._sampling import draws
 from givens._scalars import seed_of, shown, threads_of, whole
@@ -79,7 +80,14 @@ class Batch(Stacked):
             for track, wanted in zip(tracks, times, strict=True)
         ]
         for goal, these in alike.items():
-            natives = _native.run_batch([jobs[k] for k in these], goal.word, goal.value, threads)
+            try:
+                natives = _native.run_batch([jobs[k] for k in these], goal.word, goal.value, threads)
+            except InputError as refusal:
+                number = told_by_number(refusal)
+                if number is not None:
+                    k = these[number]
+                    tell(refusal, k if tracks[k].id is None else tracks[k].id, tracks[k].rows, tracks[k].before)
+                raise
             for k, native in zip(these, natives, strict=True):
                 found[k] = native
         estimates, failed = [], []

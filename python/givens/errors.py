@@ -53,14 +53,17 @@ class InputError(GivensError, ValueError):
     argument : str or None
         The argument, as the function names it.
     row : int or None
-        The row of the data, from zero.
+        The row of the data, from zero; of a batch, the row of the track. The message says which of a table it is.
     component : str or None
         The state, measure, control or parameter, by its name.
+    track : object
+        The track concerned, where there are several: its name or number.
     """
 
     argument: str | None
     row: int | None
     component: str | None
+    track: Any
 
     def __init__(
         self,
@@ -69,12 +72,14 @@ class InputError(GivensError, ValueError):
         argument: str | None = None,
         row: int | None = None,
         component: str | None = None,
+        track: Any = None,
         remedy: str | None = None,
     ) -> None:
         super().__init__(message, remedy=remedy)
         self.argument = argument
         self.row = row
         self.component = component
+        self.track = track
 
 
 class TraceError(InputError):

@@ -485,7 +485,7 @@ CASES = [
     (
         lambda: gv.filter(MODEL, LENGTH, T, np.stack([Z, Z])[:, :4], prior=PRIOR),
         gv.InputError,
-        "`z` has shape (4, 1), not (20, 1)\n  help: one row for each time, one column for each of length",
+        "track 0: `z` has shape (4, 1), not (20, 1)\n  help: one row for each time, one column for each of length",
     ),
     (
         lambda: gv.smooth(MODEL, LENGTH, T, Z, prior=PRIOR, lag=-1),

@@ -40,7 +40,7 @@ def near_track(name: Any, among: Sequence[Any]) -> str:
     from difflib import get_close_matches
 
     words = {str(one): one for one in among}
-    close = get_close_matches(str(name), list(words), 1)
+    close = get_close_matches(shown(name) if not isinstance(name, str) else name, list(words), 1)
     if close:
         return f"did you mean {shown(words[close[0]])}?"
     return f"there {'is' if len(among) == 1 else 'are'} {_names(among)}" if among else "there is none"

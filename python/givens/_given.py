@@ -42,10 +42,13 @@ def split(joined: Joined, t: Any, z: Any, u: Any, noise: Any) -> tuple[list[Give
         each: list[Any] = _by_sensor(z) if several else []
     elif isinstance(z, (list, tuple)) and len(z) and (isinstance(z[0], Mapping) or dimensions(z[0]) == 2):
         several, each = True, list(z)
+    elif len(joined.measures) == 1 and _vectors(t, z):
+        several, each = True, _parts(z)
     else:
         several = dimensions(z) == 3 and np.shape(z)[2] == len(joined.measures)
         each = _parts(z) if several else []
     if not several:
+        _refuse_times(joined, t)
         return [Given(t, z, u, noise)], False
     runs = len(each)
     ragged = isinstance(t, (list, tuple)) and len(t) > 0 and dimensions(t[0]) == 1
@@ -59,6 +62,31 @@ def split(joined: Joined, t: Any, z: Any, u: Any, noise: Any) -> tuple[list[Give
     controls = _by_run("u", u, runs)
     noises = _noise_by_run(joined, noise, [len(one) if dimensions(one) == 1 else 0 for one in times])
     return [Given(times[k], each[k], controls[k], noises[k]) for k in range(runs)], True
+
+
+def _times_of_several(t: Any) -> bool:
+    """Whether these are the times of several tracks; one row or one column may be a vector that was meant."""
+    if dimensions(t) == 2:
+        return min(np.shape(t)) > 1 or (isinstance(t, (list, tuple)) and isinstance(t[0], np.ndarray))
+    return isinstance(t, (list, tuple)) and len(t) > 1 and dimensions(t) < 0 and all(dimensions(one) == 1 for one in t)
+
+
+def _vectors(t: Any, z: Any) -> bool:
+    """Whether these are tracks of one measure, (rows,) each."""
+    listed = isinstance(z, (list, tuple)) and len(z) > 0 and all(dimensions(one) == 1 for one in z)
+    if _times_of_several(t):
+        return listed or dimensions(z) == 2
+    # a list of numbers in brackets is rows; of arrays with one number each as well
+    return listed and all(not isinstance(one, (list, tuple)) and len(one) > 1 for one in z)
+
+
+def _refuse_times(joined: Joined, t: Any) -> None:
+    if _times_of_several(t):
+        raise InputError(
+            f"`t` has times of {len(t)} tracks, but `z` is of one",
+            argument="t",
+            remedy=f"give `z` for each track: a list of arrays (rows, {len(joined.measures)})",
+        )
 
 
 def _parts(array: Any) -> list[Any]:

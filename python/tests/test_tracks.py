@@ -80,3 +80,33 @@ def test_what_does_not_fit_the_tracks_is_told_with_its_remedy(case):
         wrong()
     assert str(caught.value) == expected
     assert caught.value.argument in ("prior", "params", "name")
+
+
+@pytest.mark.parametrize("t", [T, [T, T], np.stack([T, T])], ids=["one for all", "list", "array"])
+def test_tracks_of_one_measure_may_be_vectors(t):
+    expected = gv.filter(MODEL, LENGTH, T, np.stack([Z, Z + 0.1]), prior=PRIOR)
+    found = gv.filter(MODEL, LENGTH, t, [Z[:, 0], Z[:, 0] + 0.1], prior=PRIOR)
+    np.testing.assert_array_equal(found.mean, expected.mean)
+
+
+def test_vectors_may_have_different_lengths_and_be_one_array_where_times_are():
+    ragged = gv.filter(MODEL, LENGTH, [T, T[:7]], [Z[:, 0], Z[:7, 0]], prior=PRIOR)
+    assert [len(one) for one in ragged] == [20, 7]
+    assert len(gv.filter(MODEL, LENGTH, np.stack([T, T]), np.stack([Z[:, 0]] * 2), prior=PRIOR)) == 2
+
+
+def test_rows_of_one_number_each_are_one_track():
+    for rows in (list(Z), Z.tolist(), Z[:, 0].tolist()):
+        assert isinstance(gv.filter(MODEL, LENGTH, T, rows, prior=PRIOR), gv.Estimates)
+    assert isinstance(gv.filter(MODEL, LENGTH, [0.0], [[1.0]], prior=PRIOR), gv.Estimates)
+
+
+def test_times_of_several_tracks_beside_measurements_of_one_are_told():
+    both = gv.Sensor(lambda t, x: x, measures=["p", "q"], std=[0.1, 0.1])
+    for t in ([T, T], [T, T[:7]]):
+        with pytest.raises(gv.InputError) as caught:
+            gv.filter(MODEL, both, t, [Z[:, 0], Z[:, 0]], prior=PRIOR)
+        assert str(caught.value) == (
+            "`t` has times of 2 tracks, but `z` is of one\n"
+            "  help: give `z` for each track: a list of arrays (rows, 2)"
+        )

@@ -16,15 +16,16 @@ from givens._clock import Clock, Times, clock_of
 from givens._dynamics import Parametric
 from givens._given import Given, each_of, parameters_by_run, split
 from givens._in_track import in_track
-from givens._join import Joined, join, refuse_steep, sensors_of
+from givens._join import Joined, join, sensors_of
+from givens._method import choose
 from givens._rows import controls_of, measured, noise_shapes, with_noise
-from givens._scalars import mapping, shown, text
+from givens._scalars import mapping, text
 from givens._tables import is_table, rows_by_track
-from givens.errors import InputError, MethodError
+from givens.errors import InputError
 from givens.gaussian import Gaussian
 from givens.model_file import ModelFile
 
-__all__ = ["Goal", "Track", "choose", "plan", "read_prior", "with_parameters"]
+__all__ = ["Goal", "Track", "plan", "read_prior", "with_parameters"]
 
 
 @dataclass(frozen=True)
@@ -140,24 +141,6 @@ def _shapes(model: Any, sensors: Any) -> dict[str, tuple[int, ...]]:
     """The parameters of a model and its sensors, with their shapes."""
     owners = (model,) if isinstance(model, ModelFile) else (model, *sensors_of(sensors))
     return {name: np.shape(value) for owner in owners for name, value in owner.parameters.items()}
-
-
-def choose(model: Any, joined: Joined, method: str | None, options: Mapping[str, Any]) -> _native.Choice:
-    """The method with its options; those of a model file hold where no other method is named."""
-    if method is not None and not isinstance(method, str):
-        raise MethodError(
-            f"`method` is {shown(method)}, not a name", remedy='write method="sr-ckf"; gv.methods() lists all'
-        )
-    for word in (method or "", *options):
-        text("method", word, "a name", "gv.methods() lists all methods with their options")
-    if isinstance(model, ModelFile):
-        named = method is not None and method != model.method
-        options = {**({} if named else model.options), **options}
-        method = method or model.method
-    choice = _native.Choice(method, dict(options), joined.kind)
-    choice.check(joined.native)
-    refuse_steep(joined, choice)
-    return choice
 
 
 def with_parameters(model: Any, sensors: Any, values: Mapping[str, Any]) -> tuple[Any, Any]:

@@ -12,7 +12,8 @@ from givens import _native
 from givens._arrays import Array, numbers, shape_error, vector
 from givens._clock import Clock, clock_of
 from givens._join import Joined, join, named_sensor
-from givens._plan import choose, read_prior
+from givens._method import choose
+from givens._plan import read_prior
 from givens.errors import InputError, StepError
 from givens.gaussian import Gaussian
 

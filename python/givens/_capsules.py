@@ -60,9 +60,13 @@ class LentTable:
 
 def framed(argument: str, value: Any) -> Any:
     """The same, but what can only lend its columns as a table that has them; in lists and tables by name as well."""
-    if isinstance(value, (list, tuple)) and any(map(_only_lends, value)):
+    if type(value).__name__ == "LazyFrame" and hasattr(value, "collect"):
+        raise InputError(
+            f"`{argument}` is a LazyFrame, which has no rows yet", argument=argument, remedy=f"{argument}.collect()"
+        )
+    if isinstance(value, (list, tuple)) and any(map(_lends_or_waits, value)):
         return [framed(f"{argument}[{k}]", part) for k, part in enumerate(value)]
-    if isinstance(value, Mapping) and any(map(_only_lends, value.values())):
+    if isinstance(value, Mapping) and any(map(_lends_or_waits, value.values())):
         return {name: framed(f"{argument}[{name!r}]", part) for name, part in value.items()}
     if not _only_lends(value):
         return value
@@ -77,6 +81,10 @@ def framed(argument: str, value: Any) -> Any:
 def _only_lends(value: object) -> bool:
     faces = ("column_names", "to_numpy", "__array__")
     return hasattr(value, "__arrow_c_stream__") and not any(hasattr(value, face) for face in faces)
+
+
+def _lends_or_waits(value: object) -> bool:
+    return _only_lends(value) or type(value).__name__ == "LazyFrame"
 
 
 def stream(one: Estimates) -> object:

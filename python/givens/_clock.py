@@ -49,6 +49,11 @@ class Clock:
     def wanted(self, argument: str, times: Any) -> Times:
         """Times that are asked for: one, or several behind each other."""
         found = self._read(argument, times)
+        if found.seconds.ndim > 1:
+            remedy = (
+                f"times are a vector, the same for all tracks: {argument}=np.unique(…), or one track after the other"
+            )
+            raise shape_error(argument, found.seconds.shape, "(times,)", remedy)
         return Times(np.atleast_1d(found.seconds), np.atleast_1d(found.given))
 
     def moment(self, argument: str, time: Any) -> float:

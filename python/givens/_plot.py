@@ -6,19 +6,18 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from givens._arrays import Array, shape_error
-from givens._capsules import framed
-from givens._frames import numbers_by_name
+from givens._arrays import Array
 from givens._lazy import wanted
 from givens._names import known_name
 from givens._scalars import shown
+from givens._truth import truth_of
 from givens.errors import InputError
 
 if TYPE_CHECKING:
     from givens.consistency import Consistency
     from givens.estimates import Estimates
 
-__all__ = ["ESTIMATE", "TRUTH", "figure_of", "finished", "places_of", "plot", "truth_of", "verdict"]
+__all__ = ["ESTIMATE", "TRUTH", "figure_of", "finished", "places_of", "plot", "verdict"]
 
 ESTIMATE, FILTERED, TRUTH, _BAND = "#1f5fa8", "#9a9a9a", "#c0392b", 0.2
 
@@ -44,20 +43,6 @@ def places_of(state: tuple[str, ...], plane: tuple[str, str]) -> tuple[int, int]
         )
     i, j = (state.index(known_name("plane", name, state, "state")) for name in plane)
     return i, j
-
-
-def truth_of(one: Estimates, truth: Any, argument: str = "truth") -> Array:
-    """True states of the rows of a run; those behind its failure are left out."""
-    known = numbers_by_name("truth", framed("truth", truth), one.state, "state")
-    rows, n = one.__dict__["_rows"], len(one.state)
-    if known.shape == (rows,) and n == 1:
-        known = known.reshape(-1, 1)
-    if known.shape not in ((rows, n), (len(one), n)):
-        remedy = f"one row for each row of the estimates, one column for each of {', '.join(one.state)}"
-        if known.shape == (n, rows):
-            remedy = f"rows are times: {argument}={argument}.T"
-        raise shape_error(argument, known.shape, f"({rows}, {n})", remedy)
-    return known[: len(one)]
 
 
 def figure_of(state: tuple[str, ...], plane: tuple[str, str] | None) -> tuple[Any, list[Any], Any]:

@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from givens import _native
-from givens._arrays import Array, unmasked
-from givens._plot import ESTIMATE, TRUTH, figure_of, finished, places_of, truth_of, verdict
+from givens._arrays import Array
+from givens._plot import ESTIMATE, TRUTH, figure_of, finished, places_of, verdict
+from givens._truth import truths_of
 from givens.errors import InputError
 
 if TYPE_CHECKING:
@@ -25,7 +26,7 @@ def plot(batch: Batch, plane: tuple[str, str] | None, truth: Any) -> Any:
     """See `Batch.plot`."""
     if not len(batch):
         raise InputError("there are no tracks to draw", argument="batch", remedy="draw a batch that has some")
-    known: list[Array] | list[None] = [None] * len(batch) if truth is None else _truths(batch, truth)
+    known: list[Array] | list[None] = [None] * len(batch) if truth is None else truths_of(tuple(batch), truth)
     shown = np.unique(np.linspace(0, len(batch) - 1, min(len(batch), _DRAWN)).round().astype(int))
     figure, axes, track = figure_of(batch.state, plane)
     for k in shown:
@@ -58,18 +59,6 @@ def _word(one: Estimates) -> str:
 def _line(color: str, label: str, first: bool) -> dict[str, Any]:
     style = {"linestyle": "--"} if color == TRUTH else {}
     return {"color": color, "linewidth": 0.8, "alpha": 0.6, "label": label if first else None, **style}
-
-
-def _truths(batch: Batch, truth: Any) -> list[Array]:
-    """Of each track."""
-    each = list(unmasked(truth)) if hasattr(truth, "__len__") else [truth]
-    if len(each) != len(batch):
-        raise InputError(
-            f"`truth` is of {len(each)} tracks, not {len(batch)}",
-            argument="truth",
-            remedy=f"give one for each: a list, or an array of shape ({len(batch)}, rows, {len(batch.state)})",
-        )
-    return [truth_of(one, true, f"truth[{k}]") for k, (one, true) in enumerate(zip(batch, each, strict=True))]
 
 
 def _nis(axes: Any, batch: Batch) -> None:

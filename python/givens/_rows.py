@@ -75,13 +75,22 @@ def _controls(joined: Joined, u: Any, rows: int) -> Array | None:
             "`u` is given, but the model has no controls", argument="u", remedy='name them: controls=["thrust"]'
         )
     if u is None:
-        raise InputError(f"`u` is missing: the model has the controls {listed(names)}", argument="u")
+        raise InputError(
+            f"`u` is missing: the model has the controls {listed(names)}",
+            argument="u",
+            remedy=f"give u={{name: value}}, or an array ({rows}, {len(names)}): one row for each time",
+        )
     if isinstance(u, Mapping):
         for name in u:
             known_name("u", name, names, "control")
         missing = [name for name in names if name not in u]
         if missing:
-            raise InputError(f"`u` has no entry `{missing[0]}`", argument="u", component=missing[0])
+            raise InputError(
+                f"`u` has no entry `{missing[0]}`",
+                argument="u",
+                component=missing[0],
+                remedy="give one for each of " + ", ".join(names),
+            )
         return np.stack([_control(f"u[{name!r}]", u[name], rows) for name in names], axis=1)
     array = numbers_by_name("u", u, names, "control", "u_")
     if array.ndim == 1 and len(names) == 1:

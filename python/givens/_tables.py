@@ -172,7 +172,10 @@ def _controls(joined: Joined, columns: Mapping[str, Any], rows: int) -> Array | 
         column = f"u_{name}" if f"u_{name}" in columns else name
         if column not in columns:
             raise InputError(
-                f"the table has no column `u_{name}` for the control `{name}`", argument="u", component=name
+                f"the table has no column `u_{name}` for the control `{name}`",
+                argument="u",
+                component=name,
+                remedy="add it: its values hold from their rows on",
             )
         found.append(_floats(column, columns[column], rows))
     return np.stack(found, axis=1) if found else None

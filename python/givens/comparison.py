@@ -13,14 +13,15 @@ import numpy.typing as npt
 from givens import _native
 from givens._arrays import Array
 from givens._capsules import framed
-from givens._frames import numbers_by_name
 from givens._names import known_name
 from givens._scalars import mapping, shown
+from givens._truth import truth_of, truths_of
 from givens.batch import Batch
 from givens.consistency import Consistency, consistency_of
-from givens.errors import InputError, StepError
+from givens.errors import InputError, MethodError, StepError, TraceError
 from givens.estimates import Estimates
 from givens.gaussian import Gaussian
+from givens.registry import methods as methods_of
 from givens.running import filter
 
 __all__ = ["Compared", "Comparison", "compare"]
@@ -46,7 +47,8 @@ class Compared:
         Of each state, against the truth.
     nees : float or None
         Mean NEES for each degree of freedom: 1 of a filter that is right.
-    failed : list of StepError
+    failed : list of StepError or MethodError
+        A `MethodError` of a method that does not go with the model, which has not run at all.
     estimates : Estimates or Batch
     """
 
@@ -57,7 +59,7 @@ class Compared:
     consistency: Consistency
     rmse: Array | None
     nees: float | None
-    failed: list[StepError]
+    failed: list[StepError | InputError]
     estimates: Estimates | Batch | None
 
 
@@ -69,13 +71,17 @@ class Comparison(list[Compared]):
     def rows(self) -> list[dict[str, Any]]:
         """The table, one dict for each method."""
         table = []
+        scored = any(one.rmse is not None for one in self)
         for one in self:
             row: dict[str, Any] = {"method": one.method, "rows": one.rows, "failed": len(one.failed)}
             row |= {"log-likelihood": one.log_likelihood, "NIS/dof": one.consistency.ratio}
-            row |= {"verdict": one.consistency.verdict, "µs/row": 1e6 * one.seconds_per_row}
-            if one.rmse is not None:
-                row |= {f"{name} RMSE": value for name, value in zip(self.state, one.rmse, strict=True)}
-                row["NEES/dof"] = one.nees
+            verdict = one.consistency.verdict if one.estimates is not None else "not run"
+            row |= {"verdict": verdict, "µs/row": 1e6 * one.seconds_per_row}
+            if scored:
+                # a method that has not run has no errors
+                rmse = np.full(len(self.state), np.nan) if one.rmse is None else one.rmse
+                row |= {f"{name} RMSE": value for name, value in zip(self.state, rmse, strict=True)}
+                row["NEES/dof"] = float("nan") if one.nees is None else one.nees
             table.append(row)
         return table
 
@@ -137,7 +143,13 @@ def compare(
     Returns
     -------
     Comparison
-        One entry for each method; a method that fails says so there.
+        One entry for each method; a method that fails says so there; so does one that does not go with the model, if
+        another one does.
+
+    Raises
+    ------
+    InputError
+        For arguments that cannot serve, and a name that no method has.
 
     Examples
     --------
@@ -164,16 +176,37 @@ def compare(
     # what lends its columns may do so only once
     t, z, truth = framed("t", t), framed("z", z), framed("truth", truth)
     found = Comparison()
+    refused: InputError | None = None
     for name in methods:
         own = mapping("options", options.get(name), 'options={"sr-ukf": {"kappa": 0}}')
         arguments = {"prior": prior, "method": name, **common, **own}
-        run, seconds = _timed(model, sensors, t, z, arguments)
+        try:
+            run, seconds = _timed(model, sensors, t, z, arguments)
+        except (MethodError, TraceError) as error:
+            if not _of_method(name, error):
+                raise
+            refused = refused or error
+            found.append(_refused(name, error))
+            continue
         if seconds < _QUICK:
             # the first run has prepared the model's derivatives for all that follow
             seconds = min(seconds, *(_timed(model, sensors, t, z, arguments)[1] for _ in range(2)))
         found.append(_compared(name, run, seconds, truth))
-        found.state = found[-1].estimates[0].state if isinstance(run, Batch) else run.state  # type: ignore[index]
+        found.state = run.state
+    if refused is not None and all(one.estimates is None for one in found):
+        raise refused
     return found
+
+
+def _of_method(name: str, error: InputError) -> bool:
+    """Whether an error is of a method that exists and does not go with the model; of its options it is the user's."""
+    known = {word for method in methods_of() for word in (method.name, *method.aliases)}
+    return name in known and (isinstance(error, TraceError) or getattr(error, "option", None) is None)
+
+
+def _refused(name: str, error: InputError) -> Compared:
+    nan = float("nan")
+    return Compared(name, nan, 0, nan, consistency_of([]), None, None, [error], None)
 
 
 def _timed(model: Any, sensors: Any, t: Any, z: Any, arguments: Mapping[str, Any]) -> tuple[Estimates | Batch, float]:
@@ -189,17 +222,14 @@ def _timed(model: Any, sensors: Any, t: Any, z: Any, arguments: Mapping[str, Any
 def _compared(name: str, run: Estimates | Batch, seconds: float, truth: Any) -> Compared:
     each = list(run) if isinstance(run, Batch) else [run]
     rows = sum(map(len, each))
-    failed = [one.failed for one in each if one.failed is not None]
+    failed: list[StepError | InputError] = [one.failed for one in each if one.failed is not None]
     rmse, nees = (None, None) if truth is None else _accuracy(each, truth, isinstance(run, Batch))
     total = float(sum(one.total_log_likelihood for one in each))
     return Compared(name, seconds / max(rows, 1), rows, total, consistency_of(each), rmse, nees, failed, run)
 
 
 def _accuracy(each: Sequence[Estimates], truth: Any, batch: bool) -> tuple[Array, float]:
-    states = [numbers_by_name("truth", one, each[0].state, "state") for one in (truth if batch else [truth])]
-    if len(states) != len(each):
-        raise InputError(f"`truth` is of {len(states)} tracks, not {len(each)}", argument="truth")
-    known = [one[: len(estimates)] for one, estimates in zip(states, each, strict=True)]
+    known = truths_of(each, truth) if batch else [truth_of(each[0], truth)]
     mean = np.concatenate([estimates.mean for estimates in each])
     cov = np.concatenate([estimates.cov for estimates in each])
     found = _native.accuracy(mean, cov, np.concatenate(known))

@@ -141,7 +141,8 @@ class Gaussian:
 def _variances(std: Any, n: int) -> Array:
     array = np.atleast_1d(numbers("std", std))
     if array.shape != (n,):
-        raise shape_error("std", array.shape, f"({n},), the shape of `mean`")
+        one = f"the same for all is std=np.full({n}, …)" if array.size == 1 else "give one for each entry of `mean`"
+        raise shape_error("std", array.shape, f"({n},), the shape of `mean`", one)
     wrong = ~(np.isfinite(array) & (array >= 0))
     if wrong.any():
         at = int(np.flatnonzero(wrong)[0])

@@ -263,7 +263,7 @@ CASES = [
         gv.InputError,
         "`std[1]` is -1.0\n  help: standard deviations are finite, from 0 up",
     ),
-    (lambda: gv.Gaussian([0, 1], std=[1, 1, 1]), gv.InputError, "`std` has shape (3,), not (2,), the shape of `mean`"),
+    (lambda: gv.Gaussian([0, 1], std=[1, 1, 1]), gv.InputError, "`std` has shape (3,), not (2,), the shape of `mean`\n  help: give one for each entry of `mean`"),
     (
         lambda: gv.Gaussian([0, 1], [[1, 2], [2, 1]]),
         gv.InputError,

@@ -110,3 +110,13 @@ def test_times_of_several_tracks_beside_measurements_of_one_are_told():
             "`t` has times of 2 tracks, but `z` is of one\n"
             "  help: give `z` for each track: a list of arrays (rows, 2)"
         )
+
+
+def test_a_short_track_may_be_filled_up_with_its_last_time_and_nothing_measured():
+    times, z = np.stack([T, T]), np.stack([Z, Z + 0.1])
+    times[1, 7:], z[1, 7:] = T[6], np.nan
+    for run in (gv.filter, gv.smooth):
+        filled = run(MODEL, LENGTH, times, z, prior=PRIOR)
+        alone = run(MODEL, LENGTH, T[:7], Z[:7] + 0.1, prior=PRIOR)
+        np.testing.assert_allclose(filled.mean[1], alone.mean[[*range(7)] + [6] * 13], rtol=1e-9, atol=1e-12)
+        assert filled.nis_dof[1].tolist() == [1] * 7 + [0] * 13

@@ -98,6 +98,7 @@ def plan(
     plain = join(model, sensors)
     choice = choose(model, plain, method, options)
     if isinstance(t, (str, os.PathLike)):
+        _refuse_beside_file(z=z, u=u, noise=noise, params=params or None, t0=t0 if prior is None else None)
         return _of_file(model, plain, choice, _path(t), prior, t0)
     widths = {name: place.stop - place.start for name, place in plain.sensors.items()}
     if z is None and is_table(t):
@@ -131,6 +132,18 @@ def plan(
                 joined = join(*with_parameters(model, sensors, values[k]) if values else (model, sensors), shapes)
             tracks.append(_track(model, joined, choice, replace(track, prior=priors[k]), t0))
     return tracks, batch
+
+
+def _refuse_beside_file(**given: Any) -> None:
+    """What the CSV file of a model file has in its columns, or the model in itself."""
+    remedies = {"params": "write model.with_params(…).filter(path)", "t0": "give the prior that holds then as well"}
+    for name, value in given.items():
+        if value is not None:
+            raise InputError(
+                f"`{name}` cannot be given beside the path of a CSV file",
+                argument=name,
+                remedy=remedies.get(name, "read the table with pandas or polars and give that"),
+            )
 
 
 def _path(t: Any) -> str:

@@ -1,5 +1,7 @@
 """What is given and said of the tracks of a batch by their names."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 from test_running import LENGTH, MODEL, PRIOR, T, Z, same
@@ -120,3 +122,30 @@ def test_a_short_track_may_be_filled_up_with_its_last_time_and_nothing_measured(
         alone = run(MODEL, LENGTH, T[:7], Z[:7] + 0.1, prior=PRIOR)
         np.testing.assert_allclose(filled.mean[1], alone.mean[[*range(7)] + [6] * 13], rtol=1e-9, atol=1e-12)
         assert filled.nis_dof[1].tolist() == [1] * 7 + [0] * 13
+
+
+ZOO = Path(__file__).parents[2] / "examples" / "zoo" / "van_der_pol.toml"
+
+
+@pytest.fixture
+def two_tracks(tmp_path):
+    rows = [f"{track},{time},0.5" for track in "ba" for time in (0.1, 0.2, 0.3)]
+    path = tmp_path / "two.csv"
+    path.write_text("\n".join(["track_id,time,z", *rows]) + "\n")
+    return gv.read_model(ZOO), path
+
+
+def test_a_file_of_tracks_takes_priors_by_their_names(two_tracks):
+    model, path = two_tracks
+    found = gv.filter(model, None, path, prior={"a": PRIOR, "b": NEAR})
+    assert found.track_ids == ["b", "a"]
+    same(found.track("b"), gv.filter(model, None, path, prior=NEAR).track("b"))
+    same(found.track("a"), gv.filter(model, None, path, prior=PRIOR).track("a"))
+
+
+@pytest.mark.parametrize("given", [{"params": {"stiffness": 3.0}}, {"u": 1}, {"noise": 1}, {"z": [1]}, {"t0": 0.0}])
+def test_what_a_file_of_data_leaves_no_room_for_is_refused(two_tracks, given):
+    model, path = two_tracks
+    with pytest.raises(gv.InputError, match="cannot be given beside the path of a CSV file") as caught:
+        gv.filter(model, None, path, **given)
+    assert caught.value.argument == next(iter(given)) and caught.value.remedy

@@ -4,6 +4,9 @@
 //! `f64` that they are made of, and their [`Grain`] tells what these are. A model is compiled for every grain, and for packs
 //! within the instructions that they need.
 
+#[macro_use]
+mod pointer;
+mod asking;
 mod observation;
 mod sde;
 mod transition;
@@ -14,7 +17,7 @@ pub use transition::{AnyTransition, TransitionCalls};
 
 use super::At;
 use crate::kernels::Health;
-use crate::scalar::{Dual2, Grain, Job, Pack, Real, floats, floats_mut, numbers, numbers_mut};
+use crate::scalar::{Dual2, Grain, Job, Pack, Real, numbers, numbers_mut};
 
 /// Time, length of the step, controls and parameters, as floats.
 #[derive(Clone, Copy, Debug)]
@@ -117,41 +120,11 @@ fn answer_root<T: Real>(health: Health<T>, sick: &mut [f64], pivot: &mut [f64]) 
     numbers_mut(pivot).copy_from_slice(&[health.pivot]);
 }
 
-/// Asks for the root of a noise.
-#[inline(always)]
-fn root_of<T: Real>(at: &At<T>, root: &mut [T], ask: impl FnOnce(Question)) -> Health<T> {
-    let (mut sick, mut pivot) = ([T::zero()], [T::zero()]);
-    let (told, which) = (floats_mut(&mut sick), floats_mut(&mut pivot));
-    let call = Call::NoiseRoot { root: floats_mut(root), sick: told, pivot: which };
-    if !asked(at, call, ask) {
-        unknown(root);
-    }
-    Health { sick: !sick[0].same(T::zero()), pivot: pivot[0] }
-}
-
-/// Asks with the numbers of `at` as floats. False if a model behind a pointer does not serve such numbers.
-#[inline(always)]
-fn asked<T: Real>(at: &At<T>, call: Call, ask: impl FnOnce(Question)) -> bool {
-    let Some(grain) = Grain::of::<T>() else { return false };
-    let (t, dt) = ([at.t], [at.dt]);
-    let at = AtFloats { t: floats(&t), dt: floats(&dt), u: floats(at.u), p: floats(at.p) };
-    ask(Question { grain, at, call });
-    true
-}
-
 /// One number, where floats make it.
 #[inline(always)]
 fn one<T: Real>(of: &[f64]) -> T {
     match numbers::<T>(of) {
         [number, ..] => *number,
         [] => T::of(f64::NAN),
-    }
-}
-
-/// What stands where a model cannot be asked.
-#[inline(always)]
-fn unknown<T: Real>(out: &mut [T]) {
-    for out in out {
-        *out = T::of(f64::NAN);
     }
 }

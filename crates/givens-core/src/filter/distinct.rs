@@ -3,19 +3,30 @@
 use super::error::Fault;
 use super::update::Rows;
 use crate::kernels::{Health, plus_magnitudes};
-use crate::scalar::Real;
+use crate::scalar::{Mask, Real};
 
 /// The share of a component's steps that may be lost when they are added to its mean: its standard deviation is then
 /// wrong by as much, at most.
 const LOST: f64 = 0.125;
 
 /// Fails if the points at m ± `reach` S e_l lose more than an eighth of their steps in a component of the state
-/// (docs/algorithms.md R7); a standard deviation of zero, or of no more than `floor`, has nothing to lose.
+/// (docs/algorithms.md R7); a standard deviation of zero, or of no more than `floor`, has nothing to lose. `before` is what
+/// [`note`] has noted of the belief.
 #[inline(always)]
-pub(super) fn distinct<T: Real>(reach: f64, mean: &[T], factor: &[T], floor: &[T]) -> Result<T::Mask, Fault> {
+pub(super) fn distinct<T: Real>(
+    reach: f64,
+    mean: &[T],
+    factor: &[T],
+    floor: &[T],
+    before: &[T],
+) -> Result<T::Mask, Fault> {
     let n = mean.len();
+    let far = T::of(far(reach, n, T::EPSILON));
     let mut health = Health::<T>::good();
     for (i, (&m, &floor)) in mean.iter().zip(floor).enumerate() {
+        if (far * m.abs()).lt(before[n + i]).all() {
+            continue;
+        }
         let (steps, lost, deviation) = steps(T::of(reach), m, &factor[i * n..=i * n + i]);
         // points nearer than a standard deviation are weighted by the inverse square of their distance, and so is the
         // rounding of their images
@@ -27,6 +38,12 @@ pub(super) fn distinct<T: Real>(reach: f64, mean: &[T], factor: &[T], floor: &[T
         Some(component) => Err(Fault::Indistinct { component }),
         None => Ok(health.sick),
     }
+}
+
+/// Points of a component whose standard deviation is more than this times its mean are distinct, and their steps need not
+/// be looked at: each loses at most ε (|m| + 2 |step|).
+fn far(reach: f64, n: usize, epsilon: f64) -> f64 {
+    epsilon * n as f64 * (16.0 / reach).max((1.0 / (reach * reach) - 1.0) / LOST)
 }
 
 /// What is known of each component before an update, to judge by it after: n means, then n standard deviations.
@@ -86,8 +103,13 @@ fn deviation<T: Real>(row: &[T]) -> T {
 #[inline(always)]
 pub(super) fn lower<T: Real>(reach: f64, before: &[T], mean: &[T], factor: &[T], floor: &mut [T]) {
     let n = mean.len();
+    let far = T::of(far(reach, n, T::EPSILON));
     let (means, deviations) = before.split_at(n);
     for (i, (&m, floor)) in mean.iter().zip(floor).enumerate() {
+        if (far * m.abs()).lt(deviation(&factor[i * n..=i * n + i])).all() {
+            *floor = T::zero();
+            continue;
+        }
         let (steps, lost, deviation) = steps(T::of(reach), m, &factor[i * n..=i * n + i]);
         let shrunk = deviation.lt(deviations[i]) & m.abs().le(means[i].abs() + means[i].abs());
         let kept = T::select(shrunk, floor.max(deviation), *floor);

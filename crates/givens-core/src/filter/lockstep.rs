@@ -21,27 +21,34 @@ struct Plans {
 
 impl Plans {
     /// The most that any takes.
+    #[inline(always)]
     fn longest(&self) -> usize {
         self.of[..self.width].iter().map(|plan| plan.count).max().unwrap_or(0)
     }
 
     /// The lanes that have a step `k`, as bits.
+    #[inline(always)]
     fn active(&self, k: usize) -> u32 {
-        (0..self.width).filter(|&i| k < self.of[i].count).fold(0, |bits, i| bits | 1 << i)
+        let mut bits = 0;
+        for (i, plan) in self.of[..self.width].iter().enumerate() {
+            bits |= u32::from(k < plan.count) << i;
+        }
+        bits
     }
 
     /// Where step `k` starts, and how long it is. A lane without one goes along with the first that has.
-    fn step<P: Pack>(&self, k: usize, from: &[f64]) -> ((f64, P), (f64, P)) {
-        let (mut start, mut length) = (P::zero(), P::zero());
-        let active = self.active(k);
+    #[inline(always)]
+    fn step<P: Pack>(&self, k: usize, active: u32, from: &[f64]) -> ((f64, P), (f64, P)) {
+        let (mut start, mut length) = ([P::Element::zero(); MAX_WIDTH], [P::Element::zero(); MAX_WIDTH]);
         let lead = active.trailing_zeros() as usize % self.width;
-        let at = |i: usize| from[i] + k as f64 * self.of[i].dt;
+        let steps = k as f64;
         for i in 0..self.width {
             let i_or_lead = if active >> i & 1 == 1 { i } else { lead };
-            start = start.with_lane(i, P::Element::of(at(i_or_lead)));
-            length = length.with_lane(i, P::Element::of(self.of[i_or_lead].dt));
+            start[i] = P::Element::of(from[i_or_lead] + steps * self.of[i_or_lead].dt);
+            length[i] = P::Element::of(self.of[i_or_lead].dt);
         }
-        ((at(lead), start), (self.of[lead].dt, length))
+        let at = from[lead] + steps * self.of[lead].dt;
+        ((at, P::load(&start)), (self.of[lead].dt, P::load(&length)))
     }
 }
 
@@ -75,15 +82,16 @@ impl<X: Over<M>, M, P: Pack, B: Grow<P>> Filter<'_, X, M, P, B> {
         let mut sick = P::Mask::of_bits(refused);
         self.stand_still();
         for k in 0..plans.longest() {
-            let active = P::Mask::of_bits(plans.active(k));
-            let (start, length) = plans.step(k, from);
+            let bits = plans.active(k);
+            let active = P::Mask::of_bits(bits);
+            let (start, length) = plans.step(k, bits, from);
             let some_rest = !active.all();
             if some_rest {
                 self.keep(spare);
             }
             match self.one_step(start, length, k > 0) {
                 Ok(more) => sick = sick | (more & active),
-                Err(_) => return sick | P::Mask::of_bits(plans.active(k)),
+                Err(_) => return sick | active,
             }
             if some_rest {
                 self.restore(active, spare);
@@ -121,10 +129,11 @@ impl<X: Over<M>, M, P: Pack, B: Grow<P>> Filter<'_, X, M, P, B> {
             return everybody;
         }
         self.parts().measured[..d].copy_from_slice(z);
-        let mut at = P::zero();
-        for (i, &t) in t.iter().take(P::WIDTH).enumerate() {
-            at = at.with_lane(i, P::Element::of(t));
+        let mut at = [P::Element::zero(); MAX_WIDTH];
+        for (at, &t) in at[..P::WIDTH].iter_mut().zip(t) {
+            *at = P::Element::of(t);
         }
+        let at = P::load(&at);
         // where every lane fails, there is no innovation: not that of the row before
         self.present = 0;
         self.parts().scores.fill(P::zero());

@@ -1,10 +1,15 @@
 //! Carving a caller's slice into the arrays of a step.
 
-use crate::scalar::Real;
+use crate::scalar::{LANES, Real};
 
 /// The larger of two lengths.
 pub(crate) const fn larger(a: usize, b: usize) -> usize {
     if a > b { a } else { b }
+}
+
+/// The length of a row of that many columns with which it fills whole packs.
+pub(crate) const fn whole_packs(columns: usize) -> usize {
+    columns.saturating_add(LANES - 1) / LANES * LANES
 }
 
 /// The next `len` scalars of `memory`.

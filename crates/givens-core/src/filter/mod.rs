@@ -8,6 +8,7 @@ mod distinct;
 mod error;
 mod form;
 mod gaussian;
+mod inside;
 mod known;
 pub(crate) mod lanes;
 mod layout;

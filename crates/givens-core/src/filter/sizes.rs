@@ -1,7 +1,7 @@
 //! What the length of a filter's memory depends on.
 
 use super::memory::larger;
-use crate::model::{Observation, linear_scratch, points_scratch};
+use crate::model::{Observation, linear_scratch, points_scratch, scratch_for, side_by_side_scratch};
 use crate::rule::Shape;
 
 /// The sizes of a model and its sensors, as far as a filter's memory depends on them.
@@ -30,6 +30,7 @@ impl Sizes {
     pub const fn new(states: usize, measures: usize) -> Self {
         let longer = larger(states, measures);
         let (one, linear) = (points_scratch(states, longer), linear_scratch(states, longer, 0));
+        let map = larger(one, linear);
         Self {
             states,
             process_noise: states,
@@ -37,19 +38,20 @@ impl Sizes {
             measurement_noise: measures,
             controls: 0,
             parameters: 0,
-            model: larger(one, linear),
+            model: side_by_side_scratch(map, map, 0),
         }
     }
 
     /// Controls and parameters together.
-    pub(super) const fn beside(&self) -> usize {
+    pub(crate) const fn beside(&self) -> usize {
         self.controls.saturating_add(self.parameters)
     }
 
     /// Room for so much scratch of a continuous model, and for a sensor that overrides no provided method.
     pub(super) const fn with_model_scratch(self, model: usize) -> Self {
         let (n, d) = (self.states, self.measures);
-        let sensor = larger(points_scratch(n, d), linear_scratch(n, d, self.beside()));
+        let map = larger(points_scratch(n, d), linear_scratch(n, d, self.beside()));
+        let sensor = side_by_side_scratch(map, map, self.beside());
         Self { model: larger(self.model, larger(model, sensor)), ..self }
     }
 
@@ -57,10 +59,11 @@ impl Sizes {
     #[must_use]
     pub fn with_sensor<H: Observation>(self, sensor: &H, shape: Shape) -> Self {
         let d = sensor.measures();
+        let model = scratch_for(|points| sensor.observe_scratch(points), shape.points, self.beside());
         Self {
             measures: self.measures.max(d),
             measurement_noise: self.measurement_noise.max(sensor.noise().columns(d)),
-            model: self.model.max(sensor.observe_scratch(shape.points)),
+            model: self.model.max(model),
             ..self
         }
     }

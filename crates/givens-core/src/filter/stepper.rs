@@ -131,6 +131,24 @@ impl<X: Over<M>, M, T: Real, B: AsMut<[T]>> Filter<'_, X, M, T, B> {
         parts::<T, X::Form>(&self.layout, self.memory.as_mut())
     }
 
+    /// The same arrays for a step, their lengths from the types of method and model: where these tell them as constants,
+    /// the compiler unrolls what is done with them, and no bound is left to be checked.
+    ///
+    /// # Errors
+    /// A model that has changed its length.
+    #[inline(always)]
+    pub(super) fn known_parts(&mut self) -> Result<Parts<'_, T>, Fault> {
+        let (of, expected) = ("the model's state", self.layout.sizes.states);
+        let n = self.method.time_update().states(self.model);
+        let shape = self.method.rule().shape(n);
+        if n != expected || shape != self.layout.shape {
+            return Err(Fault::Length { of, expected, found: n });
+        }
+        let sizes = Sizes { states: n, ..self.layout.sizes };
+        let moved = self.method.time_update().moves_root();
+        Ok(parts::<T, X::Form>(&Layout { sizes, shape, moved, ..self.layout }, self.memory.as_mut()))
+    }
+
     /// Sets the controls, which hold until they are set again. A model that has some neither predicts nor is measured by
     /// them before.
     ///

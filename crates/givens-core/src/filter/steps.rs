@@ -89,26 +89,24 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
 
     /// One step of `dt` from `t`, both also lane by lane; the lanes in which it was not done.
     #[inline(always)]
-    pub(super) fn one_step(
+    pub(super) fn step_inside(
         &mut self,
         (t, start): (f64, T),
         (dt, length): (f64, T),
         chained: bool,
     ) -> Result<T::Mask, StepError> {
         let (rule, time_update) = (self.method.rule(), self.method.time_update());
-        let (model, n) = (self.model, self.layout.sizes.states);
+        let model = self.model;
         let (smoothing, step) = (self.layout.smoothing, self.step);
         let mut work = self.work;
-        let Parts { table, u, p, floor, before, mut belief, mut total, mut later, scratch, .. } =
-            self.parts();
+        let parts = self.known_parts().map_err(|fault| StepError { fault, time: t, step })?;
+        let Parts { table, u, p, floor, before, mut belief, mut total, mut later, scratch, .. } = parts;
+        let n = belief.mean.len();
         note(belief.mean, belief.factor, before);
         let mut blurred = T::Mask::splat(false);
         if let Some(reach) = rule.reach(n) {
-            blurred = distinct(reach, belief.mean, belief.factor, floor).map_err(|fault| StepError {
-                fault,
-                time: t,
-                step,
-            })?;
+            blurred = distinct(reach, belief.mean, belief.factor, floor, before)
+                .map_err(|fault| StepError { fault, time: t, step })?;
         }
         let given = Given { rule: &rule, table, model, at: At { t: start, dt: length, u, p } };
         let back = smoothing.then_some(if chained { &mut later } else { &mut total });
@@ -141,7 +139,10 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
     /// covariance, an innovation or posterior covariance that is not positive definite, too little memory. The belief
     /// is then as before, and the innovation empty.
     pub fn update<H: Observation>(&mut self, sensor: &H, z: &[f64]) -> Result<(), StepError> {
-        self.measure(sensor, z, None)
+        self.make_ready(sensor, z, z.len())?;
+        let (time, step) = (self.time, self.step);
+        let learnt = self.learn_whole(sensor, T::of(time));
+        learnt.map(|_| ()).map_err(|fault| StepError { fault, time, step })
     }
 
     /// Teaches the belief the components of a measurement that are there: `present[i]` tells for component i. With
@@ -155,15 +156,14 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
         z: &[f64],
         present: &[bool],
     ) -> Result<(), StepError> {
-        self.measure(sensor, z, Some(present))
+        self.make_ready(sensor, z, present.len())?;
+        let (time, step) = (self.time, self.step);
+        let learnt = self.learn(sensor, T::of(time), Present::Some(present));
+        learnt.map(|_| ()).map_err(|fault| StepError { fault, time, step })
     }
 
-    fn measure<H: Observation>(
-        &mut self,
-        sensor: &H,
-        z: &[f64],
-        present: Option<&[bool]>,
-    ) -> Result<(), StepError> {
+    /// Checks a measurement, of which it was `told` for so many components whether they are there, and lays it ready.
+    fn make_ready<H: Observation>(&mut self, sensor: &H, z: &[f64], told: usize) -> Result<(), StepError> {
         self.present = 0;
         self.parts().scores.fill(T::zero());
         let (time, step, d) = (self.time, self.step, sensor.measures());
@@ -171,7 +171,7 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
         for (of, expected, found) in [
             ("the sensor's state", self.layout.sizes.states, sensor.states()),
             ("measurement", d, z.len()),
-            ("present", d, present.map_or(d, <[bool]>::len)),
+            ("present", z.len(), told),
             (
                 "the sensor's parameters",
                 sensor.parameters(),
@@ -188,13 +188,12 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
         }
         self.make_room(sensor).map_err(fail)?;
         self.parts().measured[..d].iter_mut().zip(z).for_each(|(to, &z)| *to = T::of(z));
-        let present = present.map_or(Present::All, Present::Some);
-        self.learn(sensor, T::of(time), present).map(|_| ()).map_err(fail)
+        Ok(())
     }
 
     /// Takes in the measurement that lies ready, made at time `t`; the lanes in which that was not done.
     #[inline(always)]
-    pub(super) fn learn<H: Observation>(
+    pub(super) fn learn_inside<H: Observation>(
         &mut self,
         sensor: &H,
         t: T,
@@ -218,13 +217,13 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
             scores,
             scratch,
             ..
-        } = self.parts();
+        } = self.known_parts()?;
         let mut sick = T::Mask::splat(false);
+        note(belief.mean, belief.factor, before);
         if let Some(reach) = rule.reach(belief.mean.len()) {
-            sick = distinct(reach, belief.mean, belief.factor, floor)?;
+            sick = distinct(reach, belief.mean, belief.factor, floor, before)?;
         }
         let at = At { t, dt: T::zero(), u, p };
-        note(belief.mean, belief.factor, before);
         if !moved {
             belief.moved = &mut [];
         }

@@ -1,33 +1,41 @@
 //! Cholesky factorisation of a positive semidefinite matrix.
 
-use super::Health;
 use super::less_dot;
 use super::rest::{errors_above, norm};
+use super::{Health, outlined};
 use crate::scalar::{Mask, Real};
 
-/// The lower-triangular S with P = S Sᵀ and diagonal ≥ 0, in place; the strict upper triangle is cleared.
-///
-/// Only the lower triangle of `a` (n × n) is read. A pivot is zero if it is within the rounding that errors of
-/// 64 n ε in the elements (relative to the standard deviations) leave in it, and so is its column then; health names
-/// the first pivot that is negative, not a number, or a zero with a column that is not. Those lanes end in NaN.
-///
-/// ```
-/// use givens_core::kernels::cholesky;
-/// let mut p = [4.0, 2.0, 2.0, 3.0];
-/// assert!(cholesky(&mut p, 2).failed().is_none());
-/// assert_eq!((p[0], p[1], p[2]), (2.0, 0.0, 1.0));
-/// let mut indefinite = [1.0, 2.0, 2.0, 1.0];
-/// assert_eq!(cholesky(&mut indefinite, 2).failed(), Some(1));
-/// ```
+outlined! {
+    /// The lower-triangular S with P = S Sᵀ and diagonal ≥ 0, in place; the strict upper triangle is cleared.
+    ///
+    /// Only the lower triangle of `a` (n × n) is read. A pivot is zero if it is within the rounding that errors of
+    /// 64 n ε in the elements (relative to the standard deviations) leave in it, and so is its column then; health names
+    /// the first pivot that is negative, not a number, or a zero with a column that is not. Those lanes end in NaN.
+    ///
+    /// ```
+    /// use givens_core::kernels::cholesky;
+    /// let mut p = [4.0, 2.0, 2.0, 3.0];
+    /// assert!(cholesky(&mut p, 2).failed().is_none());
+    /// assert_eq!((p[0], p[1], p[2]), (2.0, 0.0, 1.0));
+    /// let mut indefinite = [1.0, 2.0, 2.0, 1.0];
+    /// assert_eq!(cholesky(&mut indefinite, 2).failed(), Some(1));
+    /// ```
+    pub fn cholesky(a: &mut [T], n: usize) -> Health<T> = factorised
+}
+
 #[inline(always)]
-pub fn cholesky<T: Real>(a: &mut [T], n: usize) -> Health<T> {
+fn factorised<T: Real>(a: &mut [T], n: usize) -> Health<T> {
     factorise(a, n, 64.0, |_, own| own)
 }
 
-/// [`cholesky`] of a computed difference of matrices: the errors are 8 n ε of `scale`, the diagonal before the
-/// subtraction (length n), since that is the size of its rounding.
+outlined! {
+    /// [`cholesky`] of a computed difference of matrices: the errors are 8 n ε of `scale`, the diagonal before the
+    /// subtraction (length n), since that is the size of its rounding.
+    pub fn cholesky_scaled(a: &mut [T], n: usize, scale: &[T]) -> Health<T> = factorised_by_scale
+}
+
 #[inline(always)]
-pub fn cholesky_scaled<T: Real>(a: &mut [T], n: usize, scale: &[T]) -> Health<T> {
+fn factorised_by_scale<T: Real>(a: &mut [T], n: usize, scale: &[T]) -> Health<T> {
     factorise(a, n, 8.0, |i, own| T::select(scale[i].lt(own), own, scale[i]))
 }
 

@@ -1,26 +1,30 @@
 //! Downdate of a triangular factor by one column.
 
-use super::Health;
 use super::rest::{errors_above, norm};
+use super::{Health, outlined};
 use crate::scalar::{Mask, Real};
 
-/// L with L Lᵀ − v vᵀ in place of L Lᵀ, L lower triangular n × n in rows of length `stride` (docs/algorithms.md §2).
-///
-/// `v` (length n) is used up, and the triangle above the diagonal, which must be zero, stays so. The square of pivot k
-/// is r² = L_kk² − v_k², known to τ = e max(L_kk, |v_k|), where e is 64 ε ‖row k‖ and what the errors of the rows
-/// above have made of it: below −τ it is the failure that health names; within τ of zero the column is zero and the
-/// downdate ends. Where L_kk and v_k are themselves zero to rounding, what stands below L_kk is rotated into the
-/// columns after it, and the downdate goes on with the next row.
-///
-/// ```
-/// use givens_core::kernels::downdate;
-/// let mut l = [5.0];
-/// assert!(downdate(&mut l, 1, 1, &mut [3.0]).failed().is_none());
-/// assert_eq!(l[0], 4.0);
-/// assert_eq!(downdate(&mut l, 1, 1, &mut [4.1]).failed(), Some(0));
-/// ```
+outlined! {
+    /// L with L Lᵀ − v vᵀ in place of L Lᵀ, L lower triangular n × n in rows of length `stride` (docs/algorithms.md §2).
+    ///
+    /// `v` (length n) is used up, and the triangle above the diagonal, which must be zero, stays so. The square of pivot k
+    /// is r² = L_kk² − v_k², known to τ = e max(L_kk, |v_k|), where e is 64 ε ‖row k‖ and what the errors of the rows
+    /// above have made of it: below −τ it is the failure that health names; within τ of zero the column is zero and the
+    /// downdate ends. Where L_kk and v_k are themselves zero to rounding, what stands below L_kk is rotated into the
+    /// columns after it, and the downdate goes on with the next row.
+    ///
+    /// ```
+    /// use givens_core::kernels::downdate;
+    /// let mut l = [5.0];
+    /// assert!(downdate(&mut l, 1, 1, &mut [3.0]).failed().is_none());
+    /// assert_eq!(l[0], 4.0);
+    /// assert_eq!(downdate(&mut l, 1, 1, &mut [4.1]).failed(), Some(0));
+    /// ```
+    pub fn downdate(l: &mut [T], n: usize, stride: usize, v: &mut [T]) -> Health<T> = downdated
+}
+
 #[inline(always)]
-pub fn downdate<T: Real>(l: &mut [T], n: usize, stride: usize, v: &mut [T]) -> Health<T> {
+fn downdated<T: Real>(l: &mut [T], n: usize, stride: usize, v: &mut [T]) -> Health<T> {
     let mut health = Health::good();
     let (zero, one) = (T::zero(), T::one());
     for k in 0..n {

@@ -1,9 +1,9 @@
 //! General square matrices: factors L and U with exchanged rows, and division by the matrix.
 
-use super::Health;
 use super::less_dot;
 use super::rest::norm;
 use super::solve::inverse_or_zero;
+use super::{Health, outlined};
 use crate::scalar::{Mask, Real};
 
 /// Scalars of `order` in [`lu`]: which rows were exchanged, and how long they were.
@@ -12,23 +12,27 @@ pub const fn lu_order(n: usize) -> usize {
     2 * n
 }
 
-/// P A = L U in place, for any A, n × n: U on and above the diagonal, L, whose diagonal is one, below. `order` has
-/// [`lu_order`] scalars and keeps the exchanges of rows for [`lu_solve`].
-///
-/// The pivot is the largest left of its column, against the length of its row, so that a change of the units of the
-/// rows changes nothing; with several lanes it is chosen by the first. Health names a pivot that is zero within the
-/// rounding of the numbers whose difference it is (docs/algorithms.md K6); those lanes end in NaN.
-///
-/// ```
-/// use givens_core::kernels::{lu, lu_solve};
-/// let (mut a, mut order, mut b) = ([0.0, 2.0, 4.0, 1.0], [0.0; 4], [2.0, 9.0]);
-/// assert!(lu(&mut a, 2, &mut order).failed().is_none());
-/// lu_solve(&a, 2, &order, &mut b);
-/// assert_eq!(b, [2.0, 1.0]);
-/// assert_eq!(lu(&mut [1.0, 3.0, 2.0, 6.0], 2, &mut order).failed(), Some(1));
-/// ```
+outlined! {
+    /// P A = L U in place, for any A, n × n: U on and above the diagonal, L, whose diagonal is one, below. `order` has
+    /// [`lu_order`] scalars and keeps the exchanges of rows for [`lu_solve`].
+    ///
+    /// The pivot is the largest left of its column, against the length of its row, so that a change of the units of the
+    /// rows changes nothing; with several lanes it is chosen by the first. Health names a pivot that is zero within the
+    /// rounding of the numbers whose difference it is (docs/algorithms.md K6); those lanes end in NaN.
+    ///
+    /// ```
+    /// use givens_core::kernels::{lu, lu_solve};
+    /// let (mut a, mut order, mut b) = ([0.0, 2.0, 4.0, 1.0], [0.0; 4], [2.0, 9.0]);
+    /// assert!(lu(&mut a, 2, &mut order).failed().is_none());
+    /// lu_solve(&a, 2, &order, &mut b);
+    /// assert_eq!(b, [2.0, 1.0]);
+    /// assert_eq!(lu(&mut [1.0, 3.0, 2.0, 6.0], 2, &mut order).failed(), Some(1));
+    /// ```
+    pub fn lu(a: &mut [T], n: usize, order: &mut [T]) -> Health<T> = eliminated
+}
+
 #[inline(always)]
-pub fn lu<T: Real>(a: &mut [T], n: usize, order: &mut [T]) -> Health<T> {
+fn eliminated<T: Real>(a: &mut [T], n: usize, order: &mut [T]) -> Health<T> {
     let mut health = Health::<T>::good();
     let (order, scale) = order.split_at_mut(n);
     for i in 0..n {

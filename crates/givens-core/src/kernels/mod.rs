@@ -7,16 +7,19 @@ mod cholesky;
 mod downdate;
 mod health;
 mod lu;
+mod outlined;
 mod product;
 mod rest;
 mod solve;
 mod sweep;
 mod tria;
+mod tria_wide;
 
 pub use cholesky::{cholesky, cholesky_scaled};
 pub use downdate::downdate;
 pub use health::Health;
 pub use lu::{lu, lu_order, lu_solve, lu_solve_transposed};
+pub(crate) use outlined::outlined;
 pub use product::{
     add_outer, copy_lower, dot, less_dot, plus_dot, plus_magnitudes, product_lower, square, wild_row,
 };

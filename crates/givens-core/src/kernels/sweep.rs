@@ -1,18 +1,22 @@
 //! A sweep of Givens rotations: absorbs a linear map of a triangular factor into that factor.
 
-use super::{Health, dot};
+use super::{Health, dot, outlined};
 use crate::scalar::{Mask, Real};
 
-/// Triangularises [L D; 0 S] in place, L d × d and S n × n lower triangular, D d × n.
-///
-/// The matrix `a`, in rows of length d + n, becomes [T11 0; T21 T22], lower triangular, with diagonal ≥ 0 if those of L
-/// and S are. Any number of S may stand below one another: the rotations do not depend on them, and S = I becomes the
-/// rotation itself. Every row of D is rotated into its pivot from the last column to the first, which leaves S
-/// triangular throughout; all cosines of a row come from one running sum of squares. It is the measurement update
-/// (2010 eq 36). A row that the earlier ones leave at most (d + n) ε of is zero; its pivot and column are then zero, as
-/// in [`tria`](super::tria()). `scratch` has length n.
+outlined! {
+    /// Triangularises [L D; 0 S] in place, L d × d and S n × n lower triangular, D d × n.
+    ///
+    /// The matrix `a`, in rows of length d + n, becomes [T11 0; T21 T22], lower triangular, with diagonal ≥ 0 if those of L
+    /// and S are. Any number of S may stand below one another: the rotations do not depend on them, and S = I becomes the
+    /// rotation itself. Every row of D is rotated into its pivot from the last column to the first, which leaves S
+    /// triangular throughout; all cosines of a row come from one running sum of squares. It is the measurement update
+    /// (2010 eq 36). A row that the earlier ones leave at most (d + n) ε of is zero; its pivot and column are then zero, as
+    /// in [`tria`](super::tria()). `scratch` has length n.
+    pub fn sweep(a: &mut [T], d: usize, n: usize, scratch: &mut [T]) -> Health<T> = swept
+}
+
 #[inline(always)]
-pub fn sweep<T: Real>(a: &mut [T], d: usize, n: usize, scratch: &mut [T]) -> Health<T> {
+fn swept<T: Real>(a: &mut [T], d: usize, n: usize, scratch: &mut [T]) -> Health<T> {
     let size = d + n;
     let rows = a.len() / size.max(1);
     debug_assert!((rows - d).is_multiple_of(n.max(1)) && scratch.len() >= n);

@@ -6,6 +6,7 @@ mod flow;
 mod map;
 mod observation;
 mod sde;
+mod side_by_side;
 mod stack;
 mod transition;
 pub mod zoo;
@@ -23,6 +24,9 @@ pub use map::{
 pub use observation::Observation;
 pub(crate) use sde::drift_scratch;
 pub use sde::{Sde, Varies, expansion_by_duals, expansion_scratch};
+pub(crate) use side_by_side::{
+    SLACK, evaluate_side_by_side, filled, misaligned, scratch_for, side_by_side_scratch,
+};
 pub use transition::Transition;
 
 /// Where a model is evaluated: time, step, controls and parameters, all of the scalar's type, so that they

@@ -25,7 +25,7 @@ pub use taylor::Taylor;
 pub use unscented::Unscented;
 
 use crate::kernels::plus_magnitudes;
-use crate::model::{At, Map};
+use crate::model::{At, Map, SLACK};
 use crate::scalar::{Mask, Real, Shown};
 
 /// The sizes that a rule needs for a state of length n.
@@ -113,7 +113,7 @@ pub trait Rule: Copy {
 /// Scalars of scratch that a spread needs: n inputs, d outputs, `map` of the map's own.
 #[must_use]
 pub const fn spread_scratch(shape: Shape, n: usize, d: usize, map: usize) -> usize {
-    (n + d) * shape.points + map
+    (n + d) * (shape.points + SLACK) + SLACK + map
 }
 
 /// An option of a rule that is out of its range.

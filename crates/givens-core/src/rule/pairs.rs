@@ -1,13 +1,14 @@
 //! Symmetric points: every point m + S ξ comes with m − S ξ, and a centre if the rule or an angle needs one.
 
-use crate::model::{At, Map};
+use crate::model::{At, Map, evaluate_side_by_side, filled, misaligned};
 use crate::scalar::Real;
 
-/// The images of h pairs and of the centre, d rows of 2h + 1 (or 2h): first the points m + S ξ, then m − S ξ.
+/// The images of h pairs and of the centre, d rows of 2h + 1 (or 2h) and more: first the points m + S ξ, then m − S ξ.
 pub(super) struct Images<'a, T> {
     pub y: &'a mut [T],
     pub pairs: usize,
     pub points: usize,
+    pub centred: bool,
 }
 
 impl<T: Real> Images<'_, T> {
@@ -17,7 +18,7 @@ impl<T: Real> Images<'_, T> {
         let row = &self.y[i * self.points..(i + 1) * self.points];
         let (plus, rest) = row.split_at(self.pairs);
         let (minus, centre) = rest.split_at(self.pairs);
-        (plus, minus, centre.first().copied())
+        (plus, minus, centre.first().copied().filter(|_| self.centred))
     }
 }
 
@@ -35,8 +36,10 @@ pub(super) fn evaluate<'a, T: Real, G: Map>(
 ) -> Images<'a, T> {
     let (n, d) = (mean.len(), g.outputs());
     let has_angle = (0..d).any(|i| g.angle(i).is_some());
-    let points = 2 * pairs + usize::from(centred || has_angle);
-    let (x, rest) = scratch.split_at_mut(n * points);
+    let centred = centred || has_angle;
+    let points = filled::<T>(2 * pairs + usize::from(centred));
+    let skip = misaligned(scratch);
+    let (x, rest) = scratch[skip..].split_at_mut(n * points);
     let (y, rest) = rest.split_at_mut(d * points);
     for (i, (row, &m)) in x.chunks_exact_mut(points).zip(mean).enumerate() {
         let (plus, rest) = row.split_at_mut(pairs);
@@ -48,7 +51,7 @@ pub(super) fn evaluate<'a, T: Real, G: Map>(
         }
         centre.fill(m);
     }
-    g.points(at, points, x, y, rest);
+    evaluate_side_by_side(g, at, points, x, y, rest);
     for i in 0..d {
         if let Some(period) = g.angle(i) {
             let row = &mut y[i * points..(i + 1) * points];
@@ -58,5 +61,5 @@ pub(super) fn evaluate<'a, T: Real, G: Map>(
             }
         }
     }
-    Images { y, pairs, points }
+    Images { y, pairs, points, centred }
 }

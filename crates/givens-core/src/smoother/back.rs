@@ -2,7 +2,7 @@
 
 use crate::filter::backward::multiply;
 use crate::filter::{Belief, Fault, Matrix};
-use crate::kernels::{add_outer, cholesky_scaled};
+use crate::kernels::{add_outer, cholesky_scaled, outlined};
 use crate::scalar::Real;
 
 use crate::filter::lanes::lanes;
@@ -56,12 +56,20 @@ pub(super) fn mean_back<T: Real>(passage: &Passage<T>, smoothed: &mut [T], scrat
     }
 }
 
-/// Takes `smoothed` from k + 1 to k: Pˢ_k = P_k + G_k (Pˢ_{k+1} − P⁻_{k+1}) G_kᵀ, its root, and the mean.
-///
-/// # Errors
-/// A smoothed covariance that is not positive semidefinite.
+outlined! {
+    /// Takes `smoothed` from k + 1 to k: Pˢ_k = P_k + G_k (Pˢ_{k+1} − P⁻_{k+1}) G_kᵀ, its root, and the mean.
+    ///
+    /// # Errors
+    /// A smoothed covariance that is not positive semidefinite.
+    pub(super) fn step_back(
+        passage: &Passage<'_, T>,
+        smoothed: &mut Belief<'_, T>,
+        scratch: &mut [T]
+    ) -> Result<T::Mask, Fault> = stepped_back
+}
+
 #[inline(always)]
-pub(super) fn step_back<T: Real>(
+fn stepped_back<T: Real>(
     passage: &Passage<T>,
     smoothed: &mut Belief<T>,
     mut scratch: &mut [T],

@@ -4,7 +4,7 @@ use crate::filter::backward::{multiply, multiply_lower};
 use crate::filter::lanes::spoil;
 use crate::filter::memory::{put_columns, take};
 use crate::filter::{Belief, Learnt};
-use crate::kernels::{copy_lower, tria};
+use crate::kernels::{copy_lower, outlined, tria};
 use crate::scalar::Real;
 
 /// What was recorded of the time update from k to k + 1 and of the updates at k + 1: given all of them, x_k = m_k + S_k u
@@ -47,6 +47,27 @@ pub(super) struct Coordinates<'a, T> {
     pub root: &'a mut [T],
 }
 
+outlined! {
+    /// Takes the coordinates back to those of the record's belief, and writes the belief that they make of it.
+    pub(super) fn rotate_back(
+        coordinates: &mut Coordinates<'_, T>,
+        record: &Rotated<'_, T>,
+        belief: &mut Belief<'_, T>,
+        scratch: &mut [T]
+    ) -> () = rotated_back
+}
+
+#[inline(always)]
+fn rotated_back<T: Real>(
+    coordinates: &mut Coordinates<T>,
+    record: &Rotated<T>,
+    belief: &mut Belief<T>,
+    scratch: &mut [T],
+) {
+    coordinates.root_back(record, scratch);
+    coordinates.write(record, belief);
+}
+
 impl<'a, T: Real> Coordinates<'a, T> {
     /// From what the updates since the last prediction have learnt, or, if that is empty, from the present belief itself.
     #[inline(always)]
@@ -75,7 +96,7 @@ impl<'a, T: Real> Coordinates<'a, T> {
 
     /// The same with the root.
     #[inline(always)]
-    pub fn back(&mut self, record: &Rotated<T>, mut scratch: &mut [T]) {
+    fn root_back(&mut self, record: &Rotated<T>, mut scratch: &mut [T]) {
         let n = self.mean.len();
         self.mean_back(record, scratch);
         let wide = take(&mut scratch, 2 * n * n);
@@ -100,7 +121,7 @@ impl<'a, T: Real> Coordinates<'a, T> {
 
     /// mˢ, and Sˢ = S times the root.
     #[inline(always)]
-    pub fn write(&self, record: &Rotated<T>, belief: &mut Belief<T>) {
+    fn write(&self, record: &Rotated<T>, belief: &mut Belief<T>) {
         self.write_mean(record, belief.mean);
         multiply_lower(belief.factor, belief.mean.len(), record.factor, self.root);
     }

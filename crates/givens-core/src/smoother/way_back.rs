@@ -2,7 +2,7 @@
 
 use super::back::{Passage, mean_back, step_back};
 use super::history::History;
-use super::rotated::{Coordinates, Rotated};
+use super::rotated::{Coordinates, Rotated, rotate_back};
 use crate::filter::memory::take;
 use crate::filter::{Belief, Filter, Form, Grow, Over, Prior, StepError};
 use crate::kernels::{solve_lower, solve_lower_rows};
@@ -170,8 +170,7 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
             for age in 1..=steps.min(held) {
                 let record = Rotated::of(record(age), n);
                 coordinates = Coordinates { mean: smoothed.shift, root: smoothed.root };
-                coordinates.back(&record, rest);
-                coordinates.write(&record, &mut smoothed.belief);
+                rotate_back(&mut coordinates, &record, &mut smoothed.belief, rest);
                 (smoothed.shift, smoothed.root) = (coordinates.mean, coordinates.root);
                 if !visit(age, &smoothed).goes_on() {
                     return Ok(());

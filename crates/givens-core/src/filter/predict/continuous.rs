@@ -3,7 +3,7 @@
 use super::Plan;
 use crate::filter::error::Fault;
 use crate::filter::sizes::Sizes;
-use crate::model::{At, Sde, Varies};
+use crate::model::{At, Sde, Varies, scratch_for};
 use crate::ode::{Integrator, Steps};
 use crate::rule::RuleError;
 use crate::scalar::{Dual2, Mask, Real, as_duals};
@@ -39,6 +39,12 @@ impl<M: Sde> Continuous<'_, M> {
             parameters: self.0.parameters().len(),
             model,
         }
+    }
+
+    /// Its sizes, with the scratch of a map of it for so many points, that may go side by side, and at least `least`.
+    pub fn sizes_for(&self, map: impl Fn(usize) -> usize, points: usize, least: usize) -> Sizes {
+        let sizes = self.sizes(0);
+        Sizes { model: scratch_for(map, points, sizes.beside()).max(least), ..sizes }
     }
 
     /// Whether the diffusion, at one state, depends on no more than it says.

@@ -43,7 +43,7 @@ impl<M: Sde> TimeUpdate<M> for EulerMaruyama {
 
     fn sizes(&self, model: &M, shape: Shape) -> Sizes {
         let map = Flow { model, step: true, diffusion: model.diffusion_varies() == Varies::WithState };
-        Continuous(model).sizes(map.scratch(shape.points))
+        Continuous(model).sizes_for(|points| map.scratch(points), shape.points, 0)
     }
 
     fn probe<T: Real>(&self, model: &M, at: &At<T>, mean: &[T], scratch: &mut [T]) -> Result<(), Fault> {

@@ -3,18 +3,18 @@
 use crate::filter::backward::Backward;
 use crate::filter::error::{Fault, Matrix};
 use crate::filter::lanes::split;
-use crate::filter::memory::{put_columns, take};
+use crate::filter::memory::{put_columns, take, whole_packs};
 use crate::kernels::{divide_lower, divide_lower_transposed, dot, downdate, tria};
 use crate::scalar::Real;
 
-/// Scalars of scratch of [`rotation`], for `stride` columns of D, E and noise.
+/// Scalars of scratch of [`rotation`], for rows of D, E and noise of that length.
 pub(super) const fn rotation_scratch(n: usize, stride: usize) -> usize {
     2 * n * wide(n, stride) + 2 * n
 }
 
-/// Columns that the triangle of two blocks and its source need.
+/// Length of the rows that the triangle of two blocks and its source need.
 const fn wide(n: usize, stride: usize) -> usize {
-    if stride > 2 * n { stride } else { 2 * n }
+    whole_packs(if stride > 2 * n { stride } else { 2 * n })
 }
 
 /// [S⁻ 0; Ω Γ] = Tria([D E S_Q; I 0 0]) (2011 Table 3 in the coordinates of the roots; `docs/algorithms.md` S2). The upper
@@ -22,7 +22,7 @@ const fn wide(n: usize, stride: usize) -> usize {
 #[inline(always)]
 pub(super) fn rotation<T: Real>(
     dev: &[T],
-    stride: usize,
+    [columns, stride]: [usize; 2],
     minus: &[T],
     lost: usize,
     next: &mut [T],
@@ -38,7 +38,7 @@ pub(super) fn rotation<T: Real>(
     for i in 0..n {
         block[(n + i) * wide + i] = T::one();
     }
-    let mut sick = split(tria(block, 2 * n, stride, wide), n, Matrix::Predicted, Matrix::Conditional)?;
+    let mut sick = split(tria(block, 2 * n, columns, wide), n, Matrix::Predicted, Matrix::Conditional)?;
     for k in 0..lost {
         column.fill(T::zero());
         for (v, row) in column.iter_mut().zip(minus.chunks_exact(lost)) {

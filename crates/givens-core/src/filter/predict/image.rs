@@ -5,7 +5,9 @@ use super::noise::{check_spread, diffusion};
 use crate::filter::error::Fault;
 use crate::filter::memory::take;
 use crate::filter::sizes::Sizes;
-use crate::model::{At, Flow, Map, Sde, Varies, drift_scratch, flow_scratch};
+use crate::model::{
+    At, Flow, Map, SLACK, Sde, Varies, drift_scratch, flow_scratch, scratch_for, side_by_side_scratch,
+};
 use crate::rule::{Rule, Shape, Spread};
 use crate::scalar::Real;
 
@@ -74,12 +76,15 @@ pub(super) fn by_rule_noises<M: Sde>(model: &M, shape: Shape) -> (usize, usize) 
 /// Scalars of scratch of the image by a rule of this shape.
 pub(super) fn by_rule_scratch<M: Sde>(model: &M, shape: Shape) -> usize {
     let map = flow(model);
-    image_scratch(model.states(), map.outputs(), shape, map.scratch(shape.points))
+    let beside = model.controls() + model.parameters().len();
+    let map_scratch = scratch_for(|points| map.scratch(points), shape.points, beside);
+    image_scratch(model.states(), map.outputs(), shape, map_scratch)
 }
 
 const fn image_scratch(n: usize, outputs: usize, shape: Shape, map: usize) -> usize {
     let columns = n.saturating_add(shape.plus).saturating_add(shape.minus).saturating_add(1);
-    let spread = n.saturating_add(outputs).saturating_mul(shape.points).saturating_add(map);
+    let points = shape.points.saturating_add(SLACK);
+    let spread = n.saturating_add(outputs).saturating_mul(points).saturating_add(map).saturating_add(SLACK);
     // the first two are for the noise alone, which is asked for with its own mean and D
     let alone = n.saturating_add(1).saturating_mul(n);
     outputs.saturating_mul(columns).saturating_add(spread).saturating_add(alone)
@@ -90,10 +95,13 @@ pub(super) const fn by_rule_sizes(sizes: Sizes, shape: Shape, with_state: bool) 
     let (n, q, beside) = (sizes.states, sizes.process_noise, sizes.beside());
     let drift = drift_scratch(n, beside);
     if !with_state {
-        return sizes.with_model_scratch(image_scratch(n, n, shape, flow_scratch(n, None, beside, drift)));
+        let map = flow_scratch(n, None, beside, drift);
+        let map = side_by_side_scratch(map, map, beside);
+        return sizes.with_model_scratch(image_scratch(n, n, shape, map));
     }
     let entries = n.saturating_mul(q);
     let map = flow_scratch(n, Some(entries), beside, drift);
+    let map = side_by_side_scratch(map, map, beside);
     let columns = n.saturating_add(shape.plus).saturating_add(shape.minus).saturating_add(1);
     let sizes = sizes.with_model_scratch(image_scratch(n, n.saturating_add(entries), shape, map));
     Sizes { process_noise: q.saturating_mul(columns), ..sizes }

@@ -9,10 +9,10 @@ use crate::filter::form::{Belief, Form};
 use crate::filter::layout::Layout;
 use crate::filter::memory::{larger, take};
 use crate::filter::sizes::{ENDLESS, Sizes, countable, fits};
-use crate::model::{At, Expanded, Map, Sde, expanded_scratch, expansion_scratch};
+use crate::model::{At, Expanded, Map, Sde, expanded_scratch, expansion_scratch, side_by_side_scratch};
 use crate::ode::{Steps, Work};
 use crate::rule::{Rule, Shape, Spread};
-use crate::scalar::Real;
+use crate::scalar::{LANES, Real};
 
 /// How Lf enters the noise of a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -46,7 +46,9 @@ impl ItoTaylor {
         let (n, q, beside) = (sizes.states, sizes.process_noise, sizes.beside());
         let expansion = [expansion_scratch(n, q, beside); 2];
         let full = matches!(self.variant, Variant::Full);
-        let points = expanded_scratch([n, q, beside], full, shape.points, expansion);
+        let narrow = expanded_scratch([n, q, beside], full, shape.points, expansion);
+        let wide = expanded_scratch([n, q, beside], full, shape.points.div_ceil(LANES), expansion);
+        let points = side_by_side_scratch(narrow, wide, beside);
         let at_the_mean = expanded_scratch([n, q, beside], true, 1, expansion);
         sizes.with_model_scratch(larger(points, at_the_mean))
     }
@@ -80,7 +82,7 @@ impl<M: Sde> TimeUpdate<M> for ItoTaylor {
 
     fn sizes(&self, model: &M, shape: Shape) -> Sizes {
         let at_the_mean = Expanded { model, times: 1, noise: true }.scratch(1);
-        Continuous(model).sizes(self.map(model, 1).scratch(shape.points).max(at_the_mean))
+        Continuous(model).sizes_for(|points| self.map(model, 1).scratch(points), shape.points, at_the_mean)
     }
 
     fn probe<T: Real>(&self, model: &M, at: &At<T>, mean: &[T], scratch: &mut [T]) -> Result<(), Fault> {

@@ -5,7 +5,7 @@ use super::settle::{Moved, settle, settle_scratch};
 use crate::filter::backward::Backward;
 use crate::filter::error::{Fault, Quantity};
 use crate::filter::form::{Belief, Form};
-use crate::filter::memory::{larger, take};
+use crate::filter::memory::{larger, take, whole_packs};
 use crate::kernels::wild_row;
 use crate::model::{At, Sde, Varies};
 use crate::rule::{Shape, Spread, spread_scratch};
@@ -40,7 +40,7 @@ pub(super) const fn stacked_scratch(
 ) -> usize {
     let width = n + shape.plus;
     let times = 1 + if outputs > n { q } else { 0 };
-    let stride = times * width + known;
+    let stride = whole_packs(times * width + known);
     let own = outputs * (width + shape.minus + 1) + n * known;
     let end = n * stride + n * times * shape.minus + settle_scratch(n, stride, smoothing);
     own + larger(spread_scratch(shape, n, outputs, map), end)
@@ -67,7 +67,8 @@ pub(super) fn finish<T: Real, F: Form>(
     for j in 0..known {
         kept += usize::from(!empty(noise, known, j));
     }
-    let stride = width * (1 + spreads) + kept;
+    let columns = width * (1 + spreads) + kept;
+    let stride = whole_packs(columns);
     let all_lost = lost * (1 + spreads);
     let dev = take(&mut scratch, n * stride);
     let minus = take(&mut scratch, n * all_lost);
@@ -105,7 +106,7 @@ pub(super) fn finish<T: Real, F: Form>(
         block += 1;
     }
     let mean = &spread.mean[..n];
-    settle::<T, F>(Moved { mean, dev, stride, minus, lost: all_lost }, belief, back, scratch)
+    settle::<T, F>(Moved { mean, dev, columns, stride, minus, lost: all_lost }, belief, back, scratch)
 }
 
 /// Whether the entries of noise `j` move with the state, in any lane: n rows of n × q such entries below those of the state.

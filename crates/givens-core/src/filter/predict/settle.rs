@@ -17,6 +17,8 @@ pub(super) struct Moved<'a, T> {
     /// [D E N], n rows of length `stride`.
     pub dev: &'a mut [T],
     /// Columns of `dev`, at least n.
+    pub columns: usize,
+    /// Length of a row of `dev`.
     pub stride: usize,
     /// The columns of E of negative weight, n rows of this many.
     pub minus: &'a [T],
@@ -38,15 +40,15 @@ pub(super) fn settle<T: Real, F: Form>(
     mut scratch: &mut [T],
 ) -> Result<T::Mask, Fault> {
     let n = belief.mean.len();
-    let Moved { mean, dev, stride, minus, lost } = moved;
+    let Moved { mean, dev, columns, stride, minus, lost } = moved;
     let scale = take(&mut scratch, n);
     let mut sick = T::Mask::splat(false);
     if F::SQUARE_ROOT {
         let next = take(&mut scratch, n * n);
         if let Some(back) = back {
-            sick = sick | rotation(dev, stride, minus, lost, next, back, scratch)?;
+            sick = sick | rotation(dev, [columns, stride], minus, lost, next, back, scratch)?;
         } else {
-            sick = sick | lanes(tria(dev, n, stride, stride), Matrix::Predicted)?;
+            sick = sick | lanes(tria(dev, n, columns, stride), Matrix::Predicted)?;
             for column in 0..lost {
                 for (v, row) in scale.iter_mut().zip(minus.chunks_exact(lost)) {
                     *v = row[column];
@@ -59,7 +61,7 @@ pub(super) fn settle<T: Real, F: Form>(
     } else {
         let cov = take(&mut scratch, n * n);
         let next = take(&mut scratch, n * n);
-        square(cov, n, dev, stride, stride);
+        square(cov, n, dev, stride, columns);
         for i in 0..n {
             scale[i] = cov[i * n + i];
         }

@@ -7,10 +7,10 @@ use crate::filter::error::{Fault, Matrix, Quantity};
 use crate::filter::form::{Belief, Form};
 use crate::filter::lanes::lanes;
 use crate::filter::layout::Layout;
-use crate::filter::memory::{larger, put_columns, take};
+use crate::filter::memory::{larger, put_columns, take, whole_packs};
 use crate::filter::sizes::{Sizes, countable};
 use crate::kernels::wild_row;
-use crate::model::{Moving, Transition};
+use crate::model::{Moving, Transition, scratch_for};
 use crate::ode::Work;
 use crate::rule::{Rule, Shape, Spread, spread_scratch};
 use crate::scalar::{Mask, Real};
@@ -23,7 +23,7 @@ impl OneTransition {
     /// Scalars of scratch of a step.
     pub(crate) const fn scratch(sizes: Sizes, shape: Shape, smoothing: bool) -> usize {
         let Sizes { states: n, process_noise: q, .. } = sizes;
-        let stride = n + shape.plus + q;
+        let stride = whole_packs(n + shape.plus + q);
         n * stride
             + n * shape.minus
             + n
@@ -55,7 +55,7 @@ impl<M: Transition> TimeUpdate<M> for OneTransition {
     }
 
     fn sizes(&self, model: &M, shape: Shape) -> Sizes {
-        let n = model.states();
+        let (n, beside) = (model.states(), model.controls() + model.parameters().len());
         Sizes {
             states: n,
             process_noise: model.noise().columns(n),
@@ -63,7 +63,7 @@ impl<M: Transition> TimeUpdate<M> for OneTransition {
             measurement_noise: 0,
             controls: model.controls(),
             parameters: model.parameters().len(),
-            model: model.transition_scratch(shape.points),
+            model: scratch_for(|points| model.transition_scratch(points), shape.points, beside),
         }
     }
 
@@ -108,7 +108,8 @@ impl<M: Transition> TimeUpdate<M> for OneTransition {
         let n = belief.mean.len();
         let shape = rule.shape(n);
         let q = model.noise().columns(n);
-        let stride = n + shape.plus + q;
+        let columns = n + shape.plus + q;
+        let stride = whole_packs(columns);
         let dev = take(&mut scratch, n * stride);
         let minus = take(&mut scratch, n * shape.minus);
         let mean = take(&mut scratch, n);
@@ -127,7 +128,7 @@ impl<M: Transition> TimeUpdate<M> for OneTransition {
             return Err(Fault::NotFinite { quantity: Quantity::ProcessNoise, component }.into());
         }
         put_columns(dev, stride, n + shape.plus, root, q);
-        let moved = Moved { mean, dev, stride, minus, lost: shape.minus };
+        let moved = Moved { mean, dev, columns, stride, minus, lost: shape.minus };
         Ok(sick | settle::<T, F>(moved, belief, back, scratch)?)
     }
 }

@@ -6,7 +6,10 @@ use crate::filter::error::{Fault, Quantity};
 use crate::filter::memory::take;
 use crate::filter::sizes::Sizes;
 use crate::kernels::wild_row;
-use crate::model::{At, Sde, drift_scratch};
+use crate::model::{
+    At, Flow, SLACK, Sde, drift_scratch, evaluate_side_by_side, filled, misaligned, scratch_for,
+    side_by_side_scratch,
+};
 use crate::scalar::Real;
 
 /// Which points of the drift are taken, and what is made of them (docs/algorithms.md C11).
@@ -56,17 +59,21 @@ impl<M> Copy for ByVelocity<'_, M> {}
 /// Scalars of scratch of the image.
 pub(super) fn by_velocity_scratch<M: Sde>(model: &M, velocity: Velocity) -> usize {
     let (n, points) = (model.states(), velocity.points(model.states()));
-    image_scratch(n, points, model.drift_scratch(points))
+    let beside = model.controls() + model.parameters().len();
+    image_scratch(n, points, scratch_for(|points| model.drift_scratch(points), points, beside))
 }
 
 const fn image_scratch(n: usize, points: usize, drift: usize) -> usize {
-    n.saturating_mul(points).saturating_mul(2).saturating_add(drift)
+    let points = points.saturating_add(SLACK);
+    n.saturating_mul(points).saturating_mul(2).saturating_add(drift).saturating_add(SLACK)
 }
 
 /// The sizes with scratch for a model that overrides no provided method.
 pub(super) const fn by_velocity_sizes(sizes: Sizes, velocity: Velocity) -> Sizes {
     let n = sizes.states;
-    sizes.with_model_scratch(image_scratch(n, velocity.points(n), drift_scratch(n, sizes.beside())))
+    let drift = drift_scratch(n, sizes.beside());
+    let drift = side_by_side_scratch(drift, drift, sizes.beside());
+    sizes.with_model_scratch(image_scratch(n, velocity.points(n), drift))
 }
 
 impl<M: Sde> Image for ByVelocity<'_, M> {
@@ -97,7 +104,10 @@ impl<M: Sde> Image for ByVelocity<'_, M> {
         mut scratch: &mut [T],
     ) -> Result<(), Fault> {
         let n = mean.len();
-        let points = self.velocity.points(n);
+        let own = self.velocity.points(n);
+        let points = filled::<T>(own);
+        let skip = misaligned(scratch);
+        let _ = take(&mut scratch, skip);
         let x = take(&mut scratch, n * points);
         let v = take(&mut scratch, n * points);
         let radius = match self.velocity {
@@ -107,6 +117,7 @@ impl<M: Sde> Image for ByVelocity<'_, M> {
         let share = T::of(1.0 / n as f64);
         for i in 0..n {
             let (row, m) = (&mut x[i * points..(i + 1) * points], &factor[i * n..(i + 1) * n]);
+            row[own..].fill(mean[i]);
             for j in 0..n {
                 row[j] = radius.mul_add(m[j], mean[i]);
             }
@@ -121,11 +132,13 @@ impl<M: Sde> Image for ByVelocity<'_, M> {
                 }
             }
         }
-        self.model.drift_points(at, points, x, v, scratch);
+        let flow = Flow { model: self.model, step: false, diffusion: false };
+        evaluate_side_by_side(&flow, at, points, x, v, scratch);
         let half = T::of(0.5);
         for i in 0..n {
-            let (plus, rest) = v[i * points..(i + 1) * points].split_at(n);
-            if wild_row(&v[i * points..(i + 1) * points], 1).is_some() {
+            let row = &v[i * points..i * points + own];
+            let (plus, rest) = row.split_at(n);
+            if wild_row(row, 1).is_some() {
                 return Err(Fault::NotFinite { quantity: Quantity::Drift, component: i });
             }
             let velocity = match self.velocity {

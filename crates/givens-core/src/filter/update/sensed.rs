@@ -1,6 +1,6 @@
 //! The predicted measurement: the rule's spread of h and the noise, of the components that are there.
 
-use super::{InnovationMut, Measurement};
+use super::{InnovationMut, Measurement, Present};
 use crate::filter::error::{Fault, Matrix, Quantity};
 use crate::filter::form::Belief;
 use crate::filter::lanes::lanes;
@@ -73,7 +73,8 @@ pub(super) fn sense<'a, T: Real, H: Observation, R: Rule>(
         there.any() && !there.all()
     };
     let filled = n + shape.plus + r;
-    let stride = filled + (0..all).filter(partly).count();
+    let whole = matches!(measurement.present, Present::All);
+    let stride = if whole { filled } else { filled + (0..all).filter(partly).count() };
     let dev = take(scratch, all * stride);
     let minus = take(scratch, all * shape.minus);
     let root = take(scratch, all * r);
@@ -88,6 +89,8 @@ pub(super) fn sense<'a, T: Real, H: Observation, R: Rule>(
     let (mut d, mut dof, mut exact) = (0, T::zero(), T::Mask::splat(false));
     let mut unit = filled;
     for i in 0..all {
+        // of a whole measurement all rows stay where they are, and their number is known beforehand
+        let row = if whole { i } else { d };
         let there = measurement.present.lanes(i);
         if !there.any() {
             continue;
@@ -111,8 +114,8 @@ pub(super) fn sense<'a, T: Real, H: Observation, R: Rule>(
             unit += 1;
         }
         let bad = |quantity| Err(Fault::NotFinite { quantity, component: i });
-        let row = &dev[i * stride..i * stride + n + shape.plus];
-        let size = plus_magnitudes(mean[i].abs(), row);
+        let spread = &dev[i * stride..i * stride + n + shape.plus];
+        let size = plus_magnitudes(mean[i].abs(), spread);
         if (!size.finite()).all() {
             // a rule without points takes derivatives
             let derived = shape.points == 0 && mean[i].finite().any();
@@ -128,18 +131,21 @@ pub(super) fn sense<'a, T: Real, H: Observation, R: Rule>(
             return bad(Quantity::Measurement);
         }
         // move the row up over the absent ones: the root of the kept R is its kept rows, all columns
-        dev.copy_within(i * stride..(i + 1) * stride, d * stride);
-        dev[d * stride + n + shape.plus..d * stride + filled].copy_from_slice(noise);
-        minus.copy_within(i * shape.minus..(i + 1) * shape.minus, d * shape.minus);
+        if !whole {
+            dev.copy_within(i * stride..(i + 1) * stride, row * stride);
+            minus.copy_within(i * shape.minus..(i + 1) * shape.minus, row * shape.minus);
+        }
+        dev[row * stride + n + shape.plus..row * stride + filled].copy_from_slice(noise);
         let nu = measurement.z[i] - mean[i];
         let nu = if partly { T::select(there, nu, T::zero()) } else { nu };
-        (innovation.nu[d], mean[d]) = match h.angle(i) {
+        (innovation.nu[row], mean[row]) = match h.angle(i) {
             Some(period) => (nu.wrap(T::of(period)), mean[i].wrap(T::of(period))),
             None => (nu, mean[i]),
         };
         dof += if partly { T::select(there, T::one(), T::zero()) } else { T::one() };
         d += 1;
     }
+    let d = if whole { all } else { d };
     if moved {
         turn(belief.moved, dev, d, stride, scratch);
     }

@@ -42,7 +42,7 @@ pub(super) fn update<'a, T: Real>(
     let column = take(&mut scratch, size);
     let block = take(&mut scratch, (size + if below == Below::Both { n } else { 0 }) * size);
     let mut sick = match by {
-        Block::Joint => joint(block, below, sensed, belief.factor, scratch),
+        Block::Joint => joint(block, below, sensed, n, belief.factor, scratch),
         Block::Separate => separate(block, sensed, scratch),
     };
     for k in 0..sensed.lost {

@@ -35,15 +35,22 @@ mod tracks;
 #[cfg(target_arch = "x86_64")]
 pub(super) type Narrow = avx2::Avx2F64;
 #[cfg(target_arch = "x86_64")]
-pub(super) const NARROW: InstructionSet = InstructionSet::Avx2;
+pub(crate) const NARROW: InstructionSet = InstructionSet::Avx2;
 #[cfg(all(target_arch = "aarch64", target_feature = "neon"))]
 pub(super) type Narrow = neon::NeonF64;
 #[cfg(all(target_arch = "aarch64", target_feature = "neon"))]
-pub(super) const NARROW: InstructionSet = InstructionSet::Neon;
+pub(crate) const NARROW: InstructionSet = InstructionSet::Neon;
 #[cfg(not(any(target_arch = "x86_64", all(target_arch = "aarch64", target_feature = "neon"))))]
 pub(super) type Narrow = array::Array<f64, 4>;
 #[cfg(not(any(target_arch = "x86_64", all(target_arch = "aarch64", target_feature = "neon"))))]
-pub(super) const NARROW: InstructionSet = InstructionSet::Portable;
+pub(crate) const NARROW: InstructionSet = InstructionSet::Portable;
+
+/// Its lanes; one where the machine has no registers for them.
+pub(crate) const LANES: usize = match NARROW {
+    InstructionSet::Portable => 1,
+    InstructionSet::Neon => 2,
+    _ => 4,
+};
 
 pub use set::{InstructionSet, Job};
 pub use tracks::{gather, scatter};
@@ -106,6 +113,20 @@ pub trait Pack: Real<Mask: LaneMask> {
     /// Writes the lanes to the start of a slice, as many as it has room for.
     fn store(self, numbers: &mut [Self::Element]);
 
+    /// The sum of all lanes.
+    #[inline(always)]
+    fn sum(self) -> Self::Element {
+        let mut lanes = [Self::Element::zero(); MAX_WIDTH];
+        self.store(&mut lanes);
+        let mut width = Self::WIDTH;
+        while width > 1 {
+            width /= 2;
+            for i in 0..width {
+                lanes[i] = lanes[i] + lanes[i + width];
+            }
+        }
+        lanes[0]
+    }
     /// The number of lane i; NaN beyond the lanes.
     #[inline(always)]
     fn lane(self, i: usize) -> Self::Element {

@@ -3,7 +3,7 @@
 use crate::continuous::{adapts, run_if_any, tight};
 use crate::distance;
 use givens::filter::Fault;
-use givens::registry::Choice;
+use givens::registry::{Choice, resolve};
 use givens::{Goal, Outcome};
 use givens_tests::choices::continuous_choices;
 use givens_tests::sde::Continuous;
@@ -81,5 +81,20 @@ proptest! {
                 }
             }
         }
+    }
+}
+
+#[test]
+fn a_filter_that_fails_has_answered_up_to_the_row_at_fault_and_a_smoother_up_to_the_one_before() {
+    let mut problem = Continuous::random(3, [2, 1, 1], 3, 0.0);
+    problem.z[1][0] = f64::INFINITY;
+    let (first, second) = (problem.times[0], problem.times[1]);
+    let at = [0.5 * first, first, 0.5 * (first + second), second, second + 1.0];
+    let choice = resolve("sr-cd-ckf", &[]).unwrap();
+    for (goal, answered) in [(Goal::Filter, 3), (Goal::Interval, 2)] {
+        let outcome = run_at(&problem, &choice, goal, &at);
+        assert_eq!(outcome.failure.map(|(row, _)| row), Some(1), "{goal:?}");
+        assert_eq!(outcome.at.time, at[..answered], "{goal:?}");
+        assert_eq!(outcome.at.mean(1), outcome.estimates.mean(0), "{goal:?}");
     }
 }

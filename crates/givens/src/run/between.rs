@@ -125,7 +125,8 @@ impl<'t> Between<'t> {
         Ok(())
     }
 
-    /// The estimates at all times up to the last finished row, those of the rows themselves taken from `rows`.
+    /// The estimates at all times, those of the rows themselves taken from `rows`. Of a run that has failed, up to the row at
+    /// fault; smoothed ones, which need the row behind them, up to the last finished row.
     pub fn finish(mut self, rows: &Estimates, failed: bool) -> Estimates {
         let end = rows.time.last().copied();
         for (k, row) in self.rows.iter().enumerate() {
@@ -133,7 +134,7 @@ impl<'t> Between<'t> {
                 self.out.copy_row(k, rows, row);
             }
         }
-        if failed {
+        if failed && self.smoothing {
             let kept = self.out.time.iter().take_while(|&&t| end.is_some_and(|end| t <= end)).count();
             self.out.truncate(kept);
         }

@@ -26,7 +26,8 @@ pub struct Outcome {
     pub estimates: Estimates,
     /// The row that failed, and why.
     pub failure: Option<(usize, StepError)>,
-    /// The states at the times asked for; see [`run_at`](crate::run_at).
+    /// The states at the times asked for; see [`run_at`](crate::run_at). Of a filter that fails, up to the row at fault; of a
+    /// smoother, up to the row before.
     pub at: Estimates,
     /// The mean from which the failed step set out, length n; empty if none failed, or none began.
     pub failed_at: Vec<f64>,

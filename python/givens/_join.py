@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -19,10 +19,14 @@ from givens.errors import InputError
 from givens.model_file import ModelFile
 from givens.sensor import Sensor
 
-__all__ = ["Joined", "join", "named_sensor", "refuse_steep", "refuse_steep_paths", "sensors_of"]
+__all__ = ["Joined", "Placed", "join", "named_sensor", "sensors_of"]
 
 #: Joints of one model that are kept.
 _KEPT = 16
+
+
+#: A function, and where its parameters stand among those of a native model.
+Placed = tuple[Part, tuple[int, ...]]
 
 
 @dataclass(frozen=True)
@@ -37,9 +41,9 @@ class Joined:
     measures: tuple[str, ...]
     #: For each sensor whose noise comes with the rows, how many numbers a row has: of `std` d, of `cov` d².
     noise: dict[str, tuple[int, ...]]
-    #: Functions of motion, and those of the sensors, whose expressions do not have their derivatives.
-    steep_motion: Part | None = None
-    steep_measures: Part | None = None
+    #: Functions of motion, and those of the sensors, with where their parameters stand among all.
+    motion: tuple[Placed, ...] = ()
+    measuring: tuple[Placed, ...] = ()
 
     @property
     def kind(self) -> Any:
@@ -92,11 +96,7 @@ def join(model: Any, sensors: Any, noise: Mapping[str, tuple[int, ...]] | None =
     values = np.concatenate([np.empty(0), *_values(model, parts)])
     if np.array_equal(values, joined.native.parameters):
         return joined
-    return Joined(joined.native.with_parameters(values), *_fields(joined)[1:])
-
-
-def _fields(joined: Joined) -> tuple[Any, ...]:
-    return tuple(getattr(joined, name) for name in Joined.__dataclass_fields__)
+    return replace(joined, native=joined.native.with_parameters(values))
 
 
 def _values(model: Dynamics, sensors: Sequence[Sensor]) -> list[Array]:
@@ -139,11 +139,13 @@ def _made(model: Dynamics, sensors: Sequence[Sensor], noise: Mapping[str, tuple[
     places = slots(model._parameters)
     start = sum(value.size for value in model._parameters.values())
     controls, stacked, blocks, count = len(model.controls), [], {}, 0
+    measuring: list[Placed] = []
     for sensor in sensors:
         own = slots(sensor._parameters, start)
         start += sum(value.size for value in sensor._parameters.values())
         shape = noise.get(sensor.name)
         stacked.append(_sensor(graph, sensor, model, own, shape, controls))
+        measuring.append(_placed(sensor._traced(model.state, model.controls)["h"], own))
         controls += int(np.prod(shape)) if shape is not None else 0
         blocks[sensor.name] = slice(count, count + len(sensor.measures))
         count += len(sensor.measures)
@@ -161,13 +163,12 @@ def _made(model: Dynamics, sensors: Sequence[Sensor], noise: Mapping[str, tuple[
             graph, model.state, controls, values, parts["f"], parts["noise_cov"], step, stacked, jacobian=jacobian
         )
     measures = tuple(name for sensor in sensors for name in sensor.measures)
-    motion = _steep(model._parts.values())
-    measured = _steep(sensor._traced(model.state, model.controls)["h"] for sensor in sensors)
-    return Joined(native, model.state, model.controls, blocks, measures, dict(noise), motion, measured)
+    motion = tuple(_placed(part, places) for part in model._parts.values())
+    return Joined(native, model.state, model.controls, blocks, measures, dict(noise), motion, tuple(measuring))
 
 
-def _steep(parts: Iterable[Part]) -> Part | None:
-    return next((part for part in parts if part.steep is not None), None)
+def _placed(part: Part, places: Mapping[str, slice]) -> Placed:
+    return part, tuple(k for name in part.parameters for k in range(places[name].start, places[name].stop))
 
 
 def _sensor(
@@ -194,29 +195,6 @@ def _sensor(
     if "jacobian" in parts:
         described["jacobian"] = parts["jacobian"].into(graph, places)
     return described
-
-
-def refuse_steep(joined: Joined, choice: _native.Choice) -> None:
-    """Refuses a method that takes derivatives which the expressions do not have."""
-    parts = choice.parts(len(joined.states))
-    all_of_them = parts["rule"] == "taylor"
-    of_motion = all_of_them or parts["time_update"] == "ito-taylor" or parts.get("solver") == "rodas4"
-    continuous = joined.kind == "continuous"
-    for taken, part, instead in (
-        (of_motion, joined.steep_motion, "sr-cd-ckf2" if continuous else "sr-ckf"),
-        (all_of_them, joined.steep_measures, "sr-cd-ckf" if continuous else "sr-ckf"),
-    ):
-        if taken and part is not None and part.steep is not None:
-            raise part.steep.error(part.argument, f"`{choice.name}`", f'method="{instead}"')
-
-
-def refuse_steep_paths(model: Any, joined: Joined) -> None:
-    """Refuses to draw paths by an expansion of a drift whose derivatives the expressions do not have."""
-    part = joined.steep_motion
-    # where the noise depends on the state, paths are drawn without derivatives
-    expanded = isinstance(model, Dynamics) and model.kind == "continuous" and not model._parts["diffusion"].reads_state
-    if expanded and part is not None and part.steep is not None:
-        raise part.steep.error(part.argument, "`simulate`", "trace=False")
 
 
 def named_sensor(joined: Joined, argument: str, name: object) -> slice:

@@ -8,7 +8,7 @@ from functools import cache
 from typing import Any
 
 from givens import _native
-from givens._join import Joined, refuse_steep
+from givens._join import Joined
 from givens._scalars import shown, text
 from givens.errors import MethodError
 from givens.model_file import ModelFile
@@ -51,7 +51,6 @@ def choose(model: Any, joined: Joined, method: str | None, options: Mapping[str,
         method = method or model.method
     choice = _native.Choice(method, dict(options), joined.kind)
     choice.check(joined.native)
-    refuse_steep(joined, choice)
     return choice
 
 

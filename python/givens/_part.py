@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -15,11 +16,14 @@ from givens._native import Function, Graph
 from givens._scalars import shown
 from givens._symbolic import is_symbolic, of_sympy
 from givens._trace.arguments import Arguments, read_arguments
-from givens._trace.place import of_function
+from givens._trace.place import Place, of_function
 from givens._trace.steep import Steep
 from givens._trace.tape import Tape
 from givens._trace.traced import Sizes, Traced
 from givens.errors import InputError, TraceError
+
+if TYPE_CHECKING:
+    from givens._trace.derivatives import Watch
 
 __all__ = ["Part", "Request", "is_function"]
 
@@ -73,7 +77,8 @@ class Request:
         if self.may_call and (is_compiled(given) or not self.trace):
             return Part(self.argument, called=called(self, given))
         # what knows symbols is a third of the package, and a model file needs none of it
-        from givens._trace.check import compare, compare_slopes
+        from givens._trace.check import compare
+        from givens._trace.derivatives import compare_slopes
         from givens._trace.tracer import trace
 
         arguments = read_arguments(self.argument, given, self.required, self.optional, self.parameters)
@@ -86,7 +91,7 @@ class Request:
             if not self.may_call and error.remedy is not None:
                 error.remedy = error.remedy.replace(", or pass trace=False", "").replace("; or pass trace=False", "")
             raise
-        return Part(self.argument, traced, origin=of_function(given).function, steep=steep)
+        return Part(self.argument, traced, place=of_function(given), steep=steep, names=self.names, sizes=self.sizes)
 
 
 @dataclass(frozen=True)
@@ -96,9 +101,18 @@ class Part:
     argument: str
     traced: Traced | None = None
     called: Called | None = None
-    origin: str | None = None
+    #: Where a function that is traced stands, what its results are called, and of which lengths its arguments are.
+    place: Place = field(default_factory=Place)
+    names: tuple[str, ...] = ()
+    sizes: Sizes | None = None
     #: What to say to those who take its derivatives, if they are not the function's.
     steep: Steep | None = None
+    #: What compares its derivatives with it, made when it is first asked for.
+    _watch: list[Watch] = field(default_factory=list, compare=False, repr=False)
+
+    def __getstate__(self) -> dict[str, Any]:
+        # what is native cannot travel
+        return {**self.__dict__, "_watch": []}
 
     @property
     def shape(self) -> tuple[int, ...] | None:
@@ -141,6 +155,26 @@ class Part:
         found = graph.evaluate(nodes, empty, t, dt, controls, self.traced.arguments.values)
         return found.reshape(self.traced.shape)
 
+    @cached_property
+    def has_kinks(self) -> bool:
+        """Whether its derivatives may be others than its function's at points that have not been tried."""
+        if self.traced is None or self.sizes is None or not self.reads_state:
+            return False
+        from givens._trace.derivatives import has_kinks
+
+        return has_kinks(self.traced)
+
+    def steep_at(self, t: float, x: Array, u: Array, p: Array) -> Steep | None:
+        """What to say to those who take its derivatives at this point, its parameters being `p`."""
+        if self.steep is not None or not self.has_kinks:
+            return self.steep
+        if not self._watch:
+            from givens._trace.derivatives import Watch
+
+            assert self.traced is not None and self.sizes is not None
+            self._watch.append(Watch(self.traced, self.sizes, self.names, self.place))
+        return self._watch[0].at(t, x, u, p)
+
     @property
     def nodes(self) -> tuple[int, ...]:
         """The instructions of its results; none for a function that is called."""
@@ -159,7 +193,7 @@ class Part:
         """With other results, which are instructions of the same tape."""
         assert self.traced is not None
         traced = Traced(self.traced.tape, tuple(nodes), shape, self.traced.arguments)
-        return replace(self, traced=traced)
+        return replace(self, traced=traced, _watch=[])
 
     def into(self, graph: Graph, places: Mapping[str, slice]) -> list[int] | Function:
         """As the native half takes it: nodes of the graph, or a function; parameters stand in these places."""

@@ -20,6 +20,7 @@ from givens._join import Joined, join, sensors_of
 from givens._method import choose
 from givens._rows import controls_of, measured, noise_shapes, with_noise
 from givens._scalars import mapping, text
+from givens._steep import Derivatives
 from givens._tables import is_table, rows_by_track
 from givens.errors import InputError
 from givens.gaussian import Gaussian
@@ -69,6 +70,11 @@ class Track:
         model, choice, mean, cov, t0, time, z, u, _ = self.arguments()
         return _native.run(model, choice, mean, cov, t0, time, z, u, word, value, at)
 
+    def refuse_steep(self, derivatives: Derivatives) -> None:
+        """Refuses a method whose derivatives are wrong where the track begins."""
+        t = self.t0 if self.t0 is not None else float(self.time[0]) if len(self.time) else 0.0
+        derivatives.refuse(self.joined, t, self.mean, self.u)
+
     def arguments(self, at: Array | None = None) -> tuple[Any, ...]:
         """As the native half takes a track of a batch."""
         first = self.before
@@ -97,6 +103,7 @@ def plan(
     t, z, u, noise = framed("t", t), framed("z", z), framed("u", u), framed("noise", noise)
     plain = join(model, sensors)
     choice = choose(model, plain, method, options)
+    derivatives = Derivatives.of(plain, choice)
     if isinstance(t, (str, os.PathLike)):
         _refuse_beside_file(z=z, u=u, noise=noise, params=params or None, t0=t0 if prior is None else None)
         return _of_file(model, plain, choice, _path(t), prior, t0)
@@ -131,6 +138,7 @@ def plan(
             if shapes or values:
                 joined = join(*with_parameters(model, sensors, values[k]) if values else (model, sensors), shapes)
             tracks.append(_track(model, joined, choice, replace(track, prior=priors[k]), t0))
+            tracks[-1].refuse_steep(derivatives)
     return tracks, batch
 
 

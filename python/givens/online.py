@@ -14,6 +14,7 @@ from givens._clock import Clock, clock_of
 from givens._join import Joined, join, named_sensor
 from givens._method import choose
 from givens._plan import read_prior
+from givens._steep import Derivatives
 from givens.errors import InputError, StepError
 from givens.gaussian import Gaussian
 
@@ -70,9 +71,12 @@ class Filter:
         mean, cov = read_prior(model, prior, join(model, sensors).states)
         self._bind()
         start = self._clock.moment("t0", t0)
+        derivatives = Derivatives.of(self._joined, self._choice)
         self._native = _native.Filter.start(self._joined.native, self._choice, mean, cov, start)
-        if u is not None or self._joined.controls:
-            self.set_controls(u)
+        controls = self._controls(u) if u is not None or self._joined.controls else None
+        derivatives.refuse(self._joined, start, mean, None if controls is None else controls[None])
+        if controls is not None:
+            self._native.set_controls(controls)
 
     def _bind(self) -> None:
         self._joined: Joined = join(self._model, self._sensors)
@@ -133,6 +137,9 @@ class Filter:
 
     def set_controls(self, u: Any) -> None:
         """Sets the controls, which hold until they are set again: a list in order, or a table by name."""
+        self._native.set_controls(self._controls(u))
+
+    def _controls(self, u: Any) -> Array:
         names = self._joined.controls
         if not names:
             raise InputError("the model has no controls", argument="u", remedy='name them: controls=["thrust"]')
@@ -144,7 +151,7 @@ class Filter:
                 raise InputError(
                     f"`u` of `{name}` is {value}", argument="u", component=name, remedy="controls are always known"
                 )
-        self._native.set_controls(controls)
+        return controls
 
     @property
     def time(self) -> Any:

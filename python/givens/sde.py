@@ -115,7 +115,7 @@ class Sde(Dynamics):
 
     def _table(self) -> list[tuple[str, str]]:
         return [
-            ("drift", self._parts["drift"].origin or "called"),
+            ("drift", self._parts["drift"].place.function or "called"),
             ("state", f"[{', '.join(self.state)}]"),
             ("controls", f"[{', '.join(self.controls)}]" if self.controls else ""),
             ("noises", str(self.noises)),

@@ -12,10 +12,11 @@ from givens import _native
 from givens._arrays import Array
 from givens._capsules import framed
 from givens._clock import clock_of
-from givens._join import join, refuse_steep_paths
+from givens._join import join
 from givens._plan import read_prior, with_parameters
 from givens._rows import controls_of, noise_shapes, with_noise
 from givens._scalars import MOST_RUNS, mapping, seed_of, threads_of, whole
+from givens._steep import refuse_steep_paths
 from givens.gaussian import Gaussian
 
 __all__ = ["Simulated", "simulate"]
@@ -99,7 +100,6 @@ def simulate(
     plain = join(model, sensors)
     widths = {name: place.stop - place.start for name, place in plain.sensors.items()}
     joined = join(model, sensors, noise_shapes(noise, widths)) if noise is not None else plain
-    refuse_steep_paths(model, joined)
     clock = clock_of(t, t0)
     start = None if t0 is None else clock.moment("t0", t0)
     times = clock.times("t", t)
@@ -108,6 +108,7 @@ def simulate(
     z = np.zeros((len(time), len(joined.measures)))
     controls = with_noise(joined, controls_of(joined, u, len(time)), noise, z)
     mean, cov = read_prior(model, prior, joined.states)
+    refuse_steep_paths(model, joined, start or 0.0, mean, controls)
     x, drawn = _native.simulate(
         joined.native,
         mean,

@@ -100,7 +100,7 @@ class Transition(Dynamics):
 
     def _table(self) -> list[tuple[str, str]]:
         return [
-            ("f", self._parts["f"].origin or "called"),
+            ("f", self._parts["f"].place.function or "called"),
             ("state", f"[{', '.join(self.state)}]"),
             ("step", "" if self.step is None else f"{self.step:g}"),
             ("controls", f"[{', '.join(self.controls)}]" if self.controls else ""),

@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 
 from givens._native import Graph
 from givens._trace.arguments import read_arguments
-from givens._trace.check import compare, compare_slopes
+from givens._trace.check import compare
+from givens._trace.derivatives import compare_slopes
 from givens._trace.traced import Sizes
 from givens._trace.tracer import trace
 

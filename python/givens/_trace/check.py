@@ -1,10 +1,9 @@
-"""Whether a trace computes what the function computes, and has its derivatives: both, at random points."""
+"""Whether a trace computes what the function computes, at random points."""
 
 from __future__ import annotations
 
-import functools
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -13,12 +12,10 @@ import numpy.typing as npt
 from givens._native import Graph
 from givens._trace.place import of_function
 from givens._trace.refuse import refuse
-from givens._trace.slopes import Slopes, wrong_slope
-from givens._trace.steep import Steep
 from givens._trace.traced import Sizes, Traced
 from givens.errors import GivensError, TraceError
 
-__all__ = ["Point", "compare", "compare_slopes"]
+__all__ = ["Point", "compare", "component", "digits", "draws", "real"]
 
 Array = npt.NDArray[np.float64]
 
@@ -26,8 +23,6 @@ Array = npt.NDArray[np.float64]
 _SCALES = (1.0, 0.03, 30.0, 1e3, 1e6)
 _EACH = 4
 _RELATIVE = 1e-9
-#: States along each of which derivatives are taken where states are equal; more are tried along one direction.
-_FEW = 8
 
 
 @dataclass(frozen=True)
@@ -43,17 +38,18 @@ class Point:
     def named(self, positions: Sequence[str]) -> str:
         """As words: `t = 0.3, x = [1, 2]`."""
         values = {"t": self.t, "dt": self.dt, "x": self.x, "u": self.u}
-        parts = [f"{name} = {_digits(values[name])}" for name in positions]
-        return ", ".join(parts + ([f"parameters = {_digits(self.p)}"] if self.p.size else []))
+        parts = [f"{name} = {digits(values[name])}" for name in positions]
+        return ", ".join(parts + ([f"parameters = {digits(self.p)}"] if self.p.size else []))
 
 
-def _digits(value: Any) -> str:
+def digits(value: Any) -> str:
+    """A number, or several, to the bit."""
     if np.ndim(value):
         return f"[{', '.join(f'{number:.17g}' for number in np.ravel(value))}]"
     return f"{value:.17g}"
 
 
-def _draws() -> tuple[Callable[[int], Array], Callable[[int], Array]]:
+def draws() -> tuple[Callable[[int], Array], Callable[[int], Array]]:
     """Uniform and normal numbers, always the same: a generator of a library takes longer to import than all of this."""
     state = 20090513
 
@@ -76,7 +72,7 @@ def _draws() -> tuple[Callable[[int], Array], Callable[[int], Array]]:
 
 def _points(sizes: Sizes, values: Array, near: Array | None) -> Iterator[Point]:
     """States of several sizes, of either sign and of positive sign; parameters at and around their values."""
-    uniform, normal = _draws()
+    uniform, normal = draws()
 
     def point(x: Array, u: Array, p: Array, longest: float = 10.0) -> Point:
         t, dt = uniform(2)
@@ -106,74 +102,37 @@ def compare(
     counted, last = 0, "it is finite at none of them"
     for point, expressions in zip(points, found, strict=True):
         try:
-            real = _real(function, traced, point, names)
-            again = _real(function, traced, point, names)
-            nearby = _real(function, traced, _moved(point), names)
+            own = real(function, traced, point, names)
+            again = real(function, traced, point, names)
+            nearby = real(function, traced, _moved(point), names)
         except GivensError:
             raise
         except Exception as error:
             last = f"it raised {type(error).__name__}: {error}"
             continue
-        if real.shape != expressions.shape:
-            raise _differs(function, f"it gives {real.size} numbers, and {expressions.size} when traced")
-        if not np.array_equal(real, again, equal_nan=True):
+        if own.shape != expressions.shape:
+            raise _differs(function, f"it gives {own.size} numbers, and {expressions.size} when traced")
+        if not np.array_equal(own, again, equal_nan=True):
             raise refuse(
                 "called twice with the same numbers, it gives different results",
                 "leave out what changes between calls, such as random numbers, the clock and counters",
                 of_function(function),
             )
-        wrong = _wrong(real, nearby, expressions)
+        wrong = _wrong(own, nearby, expressions)
         if wrong is not None:
-            at = _component(wrong, traced.shape, names)
+            at = component(wrong, traced.shape, names)
             raise _differs(
                 function,
-                f"{at} is {_digits(real[wrong])}, but its expressions give {_digits(expressions[wrong])} "
+                f"{at} is {digits(own[wrong])}, but its expressions give {digits(expressions[wrong])} "
                 f"at {point.named(traced.arguments.positions)}",
             )
-        counted += bool(np.isfinite(real).all())
+        counted += bool(np.isfinite(own).all())
     if not counted:
         raise refuse(
             f"it cannot be compared with its expressions at any of {len(points)} random points: {last}",
             "pass check_at=… with a state where it is finite",
             of_function(function),
         )
-
-
-def compare_slopes(
-    function: Callable[..., Any],
-    traced: Traced,
-    sizes: Sizes,
-    names: tuple[str, ...],
-    near: Array | None = None,
-) -> Steep | None:
-    """Where the derivatives differ, if they do: at zero and where states are equal, at `near`, and elsewhere."""
-    n = sizes.states
-    if "x" not in traced.arguments.positions or not n or not traced.nodes:
-        return None
-    uniform, normal = _draws()
-    t, dt = 0.5, 0.25
-    slopes, axes = Slopes(traced, sizes, dt), list(np.eye(n))
-    places = [(np.zeros(n), axes), (np.ones(n), axes if n <= _FEW else [2 * uniform(n) - 1])]
-    places += [(np.array(near, dtype=float), axes)] if near is not None else []
-    places += [(scale * normal(n), [2 * uniform(n) - 1]) for scale in (1.0, 30.0)]
-    for x, directions in places:
-        point = Point(t, dt, x, np.full(sizes.controls, 0.5), traced.arguments.values)
-        found = slopes.at(t, x, point.u, point.p)
-        try:
-            moved = functools.partial(_real_at, function, traced, point, names)
-            wrong = found is not None and wrong_slope(moved, x, found, directions)
-        except Exception:
-            # where the function has no value, it has no derivative
-            continue
-        if wrong:
-            k, direction, own, other = wrong
-            by = f"x[{int(np.argmax(direction))}]" if np.count_nonzero(direction) == 1 else _digits(direction)
-            said = (
-                f"that of {_component(k, traced.shape, names)} by {by} is {own:.6g}, and that of its expressions "
-                f"{other:.6g} at {point.named(traced.arguments.positions)}"
-            )
-            return Steep(of_function(function), said)
-    return None
 
 
 def _differs(function: Callable[..., Any], said: str) -> TraceError:
@@ -202,7 +161,8 @@ def _moved(point: Point) -> Point:
     return Point(point.t, point.dt, moved(point.x), moved(point.u), moved(point.p))
 
 
-def _real(function: Callable[..., Any], traced: Traced, point: Point, names: tuple[str, ...]) -> Array:
+def real(function: Callable[..., Any], traced: Traced, point: Point, names: tuple[str, ...]) -> Array:
+    """What the function itself gives."""
     positions = {"t": point.t, "dt": point.dt, "x": point.x.copy(), "u": point.u.copy()}
     parameters, start = {}, 0
     for name, value in traced.arguments.parameters.items():
@@ -216,10 +176,6 @@ def _real(function: Callable[..., Any], traced: Traced, point: Point, names: tup
     return np.asarray(result, dtype=float).ravel()
 
 
-def _real_at(function: Callable[..., Any], traced: Traced, point: Point, names: tuple[str, ...], x: Array) -> Array:
-    return _real(function, traced, replace(point, x=x), names)
-
-
 def _evaluated(traced: Traced, points: Sequence[Point]) -> Array:
     graph = Graph()
     nodes = traced.tape.lay_into(graph, traced.nodes)
@@ -227,7 +183,8 @@ def _evaluated(traced: Traced, points: Sequence[Point]) -> Array:
     return np.array(rows).reshape(len(points), len(nodes))
 
 
-def _component(k: int, shape: tuple[int, ...], names: tuple[str, ...]) -> str:
+def component(k: int, shape: tuple[int, ...], names: tuple[str, ...]) -> str:
+    """A result in words, by its name if it has one."""
     if len(shape) == 1 and k < len(names):
         return f"component {names[k]!r}"
     at = np.unravel_index(k, shape) if shape else ()

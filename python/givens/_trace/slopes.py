@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 import numpy.typing as npt
@@ -62,34 +62,39 @@ class Slopes:
         except GivensError:
             return None
 
+    def values(self, t: float, u: Array, p: Array) -> Callable[[Array], Array]:
+        """The function itself, as its expressions compute it, of the state alone."""
+        model = self._model.with_parameters(p) if p.size else self._model
+        return lambda x: model.measure(t, x, u)[: self._given]
+
 
 def wrong_slope(
     function: Callable[[Array], Array], x: Array, slopes: Array, directions: Sequence[Array]
 ) -> tuple[int, Array, float, float] | None:
     """The first result whose derivative along one of the directions is not that of `slopes`: which, where, and both."""
-    here = function(x)
-    for direction in directions:
-        size = _STEP * max(1.0, float(np.abs(x[direction != 0]).max(initial=0.0)))
-        quotients = np.array(list(_quotients(function, x, here, direction, size)))
-        with np.errstate(all="ignore"):
-            own, found = quotients.mean(axis=0), slopes @ direction
-            noise = 1024 * np.finfo(float).eps * np.abs(here) / size
-            smooth = np.ptp(quotients, axis=0) <= _SMOOTH * np.abs(quotients).max(axis=0) + noise
-            # one that does not move at all may do so by less than its rounding
-            smooth &= quotients.any(axis=0)
-            # a covariance brings them, rounded as its largest entries are
-            room = 4 * noise + 1e-9 * np.abs(slopes).max(axis=1) + 1e-12
-            apart = np.abs(found - own) > _RELATIVE * np.maximum(np.abs(found), np.abs(own)) + room
-        wrong = np.flatnonzero(smooth & apart & np.isfinite(own))
-        if wrong.size:
-            k = int(wrong[0])
-            return k, direction, float(own[k]), float(found[k])
-    return None
+    here, along = function(x), np.array(directions)
+    sizes = _STEP * np.maximum(1.0, np.abs(np.where(along != 0, x, 0)).max(axis=1, initial=0.0))
+    with np.errstate(all="ignore"):
+        quotients = np.array([_quotients(function, x, here, *one) for one in zip(along, sizes, strict=True)])
+        own, found = quotients.mean(axis=1), along @ slopes.T
+        noise = 1024 * np.finfo(float).eps * np.abs(here) / sizes[:, None]
+        smooth = np.ptp(quotients, axis=1) <= _SMOOTH * np.abs(quotients).max(axis=1) + noise
+        # one that does not move at all may do so by less than its rounding
+        smooth &= quotients.any(axis=1)
+        # a covariance brings them, rounded as its largest entries are
+        room = 4 * noise + 1e-9 * np.abs(slopes).max(axis=1) + 1e-12
+        apart = np.abs(found - own) > _RELATIVE * np.maximum(np.abs(found), np.abs(own)) + room
+    wrong = np.argwhere(smooth & apart & np.isfinite(own))
+    if not len(wrong):
+        return None
+    at, k = map(int, wrong[0])
+    return k, along[at], float(own[at, k]), float(found[at, k])
 
 
-def _quotients(
-    function: Callable[[Array], Array], x: Array, here: Array, direction: Array, size: float
-) -> Iterator[Array]:
-    for step in (size, -size, size * _SHARE, -size * _SHARE):
-        with np.errstate(all="ignore"):
-            yield (function(x + step * direction) - here) / step
+def _quotients(function: Callable[[Array], Array], x: Array, here: Array, direction: Array, size: float) -> Array:
+    try:
+        steps = (size, -size, size * _SHARE, -size * _SHARE)
+        return np.array([(function(x + step * direction) - here) / step for step in steps])
+    except Exception:
+        # where the function has no value, it has no derivative
+        return np.full((4, len(here)), np.nan)

@@ -70,19 +70,29 @@ def unmasked(value: Any) -> Any:
     return value
 
 
+#: Begins what is said of a column of pyarrow that NumPy cannot hold.
+_UNKNOWN = "no array holds "
+
+
 def array_of(value: Any) -> np.ndarray[Any, Any]:
-    """Anything like an array as one, of whatever it holds; parts of different lengths are a ValueError."""
+    """Anything like an array as one, of whatever it holds; a ValueError of parts of different lengths and of unions."""
     value = unmasked(value)
-    if hasattr(value, "to_numpy") and not isinstance(value, np.ndarray):
+    # a single array of pyarrow refuses to give nulls away by that name
+    arrow = type(value).__module__.startswith("pyarrow")
+    if hasattr(value, "to_numpy") and not isinstance(value, np.ndarray) and not arrow:
         value = value.to_numpy()
-    return np.asarray(value)
+    try:
+        return np.asarray(value)
+    except NotImplementedError:
+        # what pyarrow has no array for, such as a union
+        raise ValueError(f"{_UNKNOWN}{getattr(value, 'type', type(value).__name__)}") from None
 
 
 def dimensions(value: Any) -> int:
-    """How many an array of this would have; -1 if its parts have different lengths."""
+    """How many an array of this would have; -1 if its parts have different lengths, or no array holds it."""
     try:
         return int(np.ndim(unmasked(value)))
-    except ValueError:
+    except (ValueError, NotImplementedError):
         return -1
 
 
@@ -117,6 +127,8 @@ def numbers(argument: str, value: Any, called: str | None = None) -> Array:
             said, remedy = "a number beyond 1.8e308", "measure it in a larger unit"
         elif "inhomogeneous" in str(error):
             said = "parts of different lengths"
+        elif str(error).startswith(_UNKNOWN):
+            said, remedy = str(error).removeprefix(_UNKNOWN), "cast it where the table is made"
     raise InputError(
         f"{called or f'`{argument}`'} is not an array of real numbers: it holds {said}",
         argument=argument,

@@ -17,6 +17,7 @@ _SHOWN = 5
 def by_track(argument: str, table: Mapping[Any, Any], tracks: Sequence[Any]) -> list[Any]:
     """The values of the tracks in their order; `table` has one for each, and no others."""
     known = set(tracks)
+    table = {name if name in known else _plain(name): value for name, value in table.items()}
     strange = [name for name in table if name not in known]
     if strange:
         missing = [name for name in tracks if name not in table]
@@ -33,6 +34,11 @@ def by_track(argument: str, table: Mapping[Any, Any], tracks: Sequence[Any]) -> 
             remedy="give one for each track",
         )
     return [table[name] for name in tracks]
+
+
+def _plain(name: Any) -> Any:
+    """A time stamp of pandas as NumPy has it, as tables have them."""
+    return name.to_datetime64() if hasattr(name, "to_datetime64") else name
 
 
 def near_track(name: Any, among: Sequence[Any]) -> str:

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import datetime
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from givens import _native
-from givens._dates import Dates
+from givens._dates import Dates, dates_of
+from givens._frames import twice
 from givens.errors import InputError
 
 if TYPE_CHECKING:
@@ -31,12 +33,7 @@ class LentTable:
 
     def __getitem__(self, name: str) -> Any:
         if self.column_names.count(name) > 1:
-            raise InputError(
-                f"`{self._argument}` has two columns `{name}`",
-                argument=self._argument,
-                component=name,
-                remedy="leave one of them out",
-            )
+            raise twice(self._argument, name)
         kind, unit, values = self._native.column(self.column_names.index(name))
         if kind in ("date", "zoned"):
             return Dates(values.view(f"datetime64[{unit}]"), kind == "zoned")
@@ -73,6 +70,9 @@ def framed(argument: str, value: Any) -> Any:
     try:
         return LentTable(argument, _native.ArrowTable.read(value.__arrow_c_stream__()))
     except InputError as error:
+        # of what a producer has raised, Arrow brings the traceback, as text
+        if error.message.rstrip().endswith("\nKeyboardInterrupt"):
+            raise KeyboardInterrupt from error
         raise InputError(
             f"`{argument}`: {error.message}", argument=argument, remedy="give a table with named columns"
         ) from None
@@ -91,7 +91,7 @@ def stream(one: Estimates) -> object:
     """See `Estimates.__arrow_c_stream__`."""
     from givens._export import aware, columns
 
-    return _native.arrow_stream(_described(columns([one])), utc=aware([one]))
+    return _native.arrow_stream(_described(columns([one]), aware([one])))
 
 
 def batch_stream(batch: Batch) -> object:
@@ -102,7 +102,7 @@ def batch_stream(batch: Batch) -> object:
         return _native.arrow_stream([])
     runs = tuple(batch)
     names = _tracks(batch.track_ids, np.array([len(one) for one in runs], dtype=np.int64))
-    return _native.arrow_stream([names, *_described(columns(runs, ("track_id",)))], utc=aware(runs))
+    return _native.arrow_stream([names, *_described(columns(runs, ("track_id",)), aware(runs))])
 
 
 def _tracks(names: Sequence[Any], rows: np.ndarray[Any, Any]) -> tuple[str, str, Any]:
@@ -114,6 +114,11 @@ def _tracks(names: Sequence[Any], rows: np.ndarray[Any, Any]) -> tuple[str, str,
         return "track_id", "whole", np.repeat(np.array(names, dtype=np.int64), rows)
     if kinds == {float}:
         return "track_id", "number", np.repeat(np.array(names), rows)
+    if all(issubclass(kind, (np.datetime64, datetime.date)) for kind in kinds):
+        found = dates_of("track_id", list(names))
+        assert found is not None
+        kind, values = _dates(found.array, found.aware)
+        return "track_id", kind, np.repeat(values, rows)
     words = ", ".join(sorted(kind.__name__ for kind in kinds))
     raise InputError(
         f"the tracks are named by {words}, which cannot be one column",
@@ -126,13 +131,17 @@ def _tracks(names: Sequence[Any], rows: np.ndarray[Any, Any]) -> tuple[str, str,
 _FINER = {"Y": "D", "M": "D", "W": "D", "h": "s", "m": "s"}
 
 
-def _described(columns: Mapping[str, np.ndarray[Any, Any]]) -> list[tuple[str, str, Any]]:
+def _described(columns: Mapping[str, np.ndarray[Any, Any]], utc: bool) -> list[tuple[str, str, Any]]:
     found: list[tuple[str, str, Any]] = []
     for name, values in columns.items():
         kind = "whole" if values.dtype.kind == "i" else "number"
         if values.dtype.kind == "M":
-            unit = np.datetime_data(values.dtype)[0]
-            kind = _FINER.get(unit, unit)
-            values = values.astype(f"datetime64[{kind}]").astype(np.int64)
+            kind, values = _dates(values, utc)
         found.append((name, kind, values))
     return found
+
+
+def _dates(values: np.ndarray[Any, Any], utc: bool) -> tuple[str, np.ndarray[Any, Any]]:
+    unit = np.datetime_data(values.dtype)[0]
+    unit = _FINER.get(unit, unit)
+    return f"{unit} UTC" if utc else unit, values.astype(f"datetime64[{unit}]").astype(np.int64)

@@ -11,7 +11,7 @@ from givens._arrays import Array, numbers
 from givens._names import known_name, listed
 from givens.errors import InputError
 
-__all__ = ["columns_of", "is_frame", "numbers_by_name"]
+__all__ = ["columns_of", "is_frame", "numbers_by_name", "twice"]
 
 
 def is_frame(value: object) -> bool:
@@ -27,6 +27,16 @@ def columns_of(frame: Any) -> list[Any]:
     return list(getattr(frame, "column_names", None) or frame.columns)
 
 
+def twice(argument: str, name: str) -> InputError:
+    """The error of a table with two columns of one name."""
+    return InputError(
+        f"`{argument}` has the column `{name}` twice",
+        argument=argument,
+        component=name,
+        remedy="leave one of them out, or name it otherwise",
+    )
+
+
 def numbers_by_name(argument: str, value: Any, names: Sequence[str], what: str, prefix: str = "") -> Array:
     """Anything like an array as floats; of a frame, the columns of these names, in their order.
 
@@ -39,12 +49,7 @@ def numbers_by_name(argument: str, value: Any, names: Sequence[str], what: str, 
         plain = str(name) if name in names else str(name).removeprefix(prefix)
         known_name(f"the columns of {argument}", plain, names, what)
         if plain in found:
-            raise InputError(
-                f"`{argument}` has two columns `{plain}`",
-                argument=argument,
-                component=plain,
-                remedy="leave one of them out",
-            )
+            raise twice(argument, plain)
         found[plain] = value[name]
     missing = [name for name in names if name not in found]
     if missing:

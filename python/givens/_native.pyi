@@ -555,11 +555,12 @@ def simulate(
     Maruyama where the diffusion depends on the state or a function that is called has no derivatives.
     """
 
-def arrow_stream(columns: Sequence[tuple[str, str, object]], *, utc: bool = False) -> object:
+def arrow_stream(columns: Sequence[tuple[str, str, object]]) -> object:
     """A capsule ``arrow_array_stream`` with one record batch of columns: name, kind and values.
 
     number: float64 (rows,), null where NaN. whole: int64 (rows,). D, s, ms, us, ns: dates as int64 (rows,) since 1970, in
-    UTC or in no zone. text: a list of str, and int64 that say in how many rows each of them stands.
+    no zone; s UTC, ms UTC, us UTC, ns UTC: in UTC. text: a list of str, and int64 that say in how many rows each of them
+    stands.
     """
 
 def consistency(nis: _Array, nis_dof: NDArray[np.int64]) -> _Consistency:

@@ -171,7 +171,8 @@ class Part:
         if not self._watch:
             from givens._trace.derivatives import Watch
 
-            assert self.traced is not None and self.sizes is not None
+            assert self.traced is not None
+            assert self.sizes is not None
             self._watch.append(Watch(self.traced, self.sizes, self.names, self.place))
         return self._watch[0].at(t, x, u, p)
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from givens._arrays import Array, array_of, is_null, numbers
 from givens._dates import Dates, dates_of, seconds_of
-from givens._frames import columns_of
+from givens._frames import columns_of, twice
 from givens._join import Joined
 from givens._names import known_name, listed
 from givens._scalars import shown
@@ -39,9 +39,13 @@ class _Columns(Mapping[str, Any]):
             table = table.fetchnumpy()
         self._table = table
         self._index = _index(table)
-        self._names = {str(name): name for name in (table if isinstance(table, Mapping) else columns_of(table))}
+        names = list(table) if isinstance(table, Mapping) else columns_of(table)
+        self._names = {str(name): name for name in names}
+        self._twice = {str(name) for k, name in enumerate(names) if name in names[:k]}
 
     def __getitem__(self, name: str) -> Any:
+        if name in self._twice:
+            raise twice("t", name)
         return self._table[self._names[name]] if name in self._names else self._index[name]
 
     def __iter__(self) -> Iterator[str]:
@@ -76,9 +80,19 @@ def _floats(name: str, column: Any, rows: int) -> Array:
     return array
 
 
-def _words(column: Any) -> list[Any]:
+def _words(name: str, column: Any) -> list[Any]:
     """A column of names; None where there is none."""
-    return [None if is_null(value) else value for value in array_of(column).tolist()]
+    try:
+        array = array_of(column)
+    except ValueError as error:
+        raise InputError(
+            f"the column `{name}` is no list of names: {error}",
+            argument=name,
+            remedy="name them by words or whole numbers",
+        ) from None
+    # of times that are finer than those of Python, NumPy would make whole numbers
+    fine = array.dtype.kind in "mM" and np.datetime_data(array.dtype)[0] in ("ns", "ps", "fs", "as")
+    return [None if is_null(value) else value for value in (list(array) if fine else array.tolist())]
 
 
 def rows_by_track(joined: Joined, table: Any) -> list[dict[str, Any]]:
@@ -103,7 +117,7 @@ def rows_by_track(joined: Joined, table: Any) -> list[dict[str, Any]]:
     if _TRACK not in columns:
         return [{"id": None, "time": times, "z": z, "u": u, "rows": None}]
     found: dict[Any, list[int]] = {}
-    for row, track in enumerate(_words(columns[_TRACK])):
+    for row, track in enumerate(_words(_TRACK, columns[_TRACK])):
         if track is None:
             raise InputError(
                 f"`{_TRACK}` is missing in row {row}",
@@ -156,7 +170,9 @@ def _measures(joined: Joined, columns: Mapping[str, Any], rows: int) -> Array:
             joined, "add a column `sensor` that names the sensor of each row, or give the measures other names"
         )
     else:
-        of = [name if name is None or isinstance(name, str) else shown(name) for name in _words(columns[_SENSOR])]
+        of = [
+            name if name is None or isinstance(name, str) else shown(name) for name in _words(_SENSOR, columns[_SENSOR])
+        ]
         for sensor in {name for name in of if name}:
             known_name("sensor", sensor, tuple(joined.sensors), "sensor")
         for sensor, place in joined.sensors.items():

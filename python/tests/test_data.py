@@ -309,8 +309,8 @@ CASES = [
     ),
     (
         lambda: gv.filter(PUSHED, BOTH, [0, 1], Z2[:2], prior=WIDE, u=pandas_frame({"e": [1, 1], "u_e": [1, 1]})),
-        "`u` has two columns `e`",
-        "leave one of them out",
+        "`u` has the column `e` twice",
+        "leave one of them out, or name it otherwise",
     ),
     (
         lambda: walk(z=np.ones((2, 2, 2)), t=[0, 1], noise=np.ones((2, 2, 2))),

@@ -23,16 +23,13 @@ use crate::numbers::numbers;
 
 /// A stream of one record batch; see the stub.
 #[pyfunction]
-#[pyo3(signature = (columns, *, utc=false))]
 pub fn arrow_stream<'py>(
     py: Python<'py>,
     columns: Vec<(String, String, Bound<'py, PyAny>)>,
-    utc: bool,
 ) -> Result<Bound<'py, PyCapsule>> {
-    let zone = utc.then(|| Arc::from("UTC"));
     let (mut fields, mut arrays) = (Vec::new(), Vec::new());
     for (name, kind, values) in &columns {
-        let array = column(kind, values, zone.clone())?;
+        let array = column(kind, values)?;
         fields.push(Field::new(name, array.data_type().clone(), true));
         arrays.push(array);
     }
@@ -47,7 +44,11 @@ pub fn arrow_stream<'py>(
 }
 
 /// One column of a kind.
-fn column(kind: &str, values: &Bound<'_, PyAny>, zone: Option<Arc<str>>) -> Result<ArrayRef> {
+fn column(kind: &str, values: &Bound<'_, PyAny>) -> Result<ArrayRef> {
+    let (kind, zone) = match kind.strip_suffix(" UTC") {
+        Some(unit) => (unit, Some(Arc::from("UTC"))),
+        None => (kind, None),
+    };
     Ok(match kind {
         "number" => Arc::new(floats(numbers(&values.extract::<PyReadonlyArrayDyn<'_, f64>>()?))),
         "whole" => Arc::new(Int64Array::from(integers(values)?)),

@@ -55,6 +55,10 @@ class Request:
         """Lengths of state and controls."""
         return Sizes(len(self.states), len(self.controls))
 
+    @property
+    def _written(self) -> str:
+        return f"write def {self.argument}({', '.join(self.required)}): return […]"
+
     def read(self, given: Any) -> Part:
         """Makes the part."""
         if is_symbolic(given):
@@ -62,17 +66,20 @@ class Request:
         if not is_function(given):
             if "x" in self.required:
                 said = f"`{self.argument}` is not a function: {shown(given)}"
-                remedy = f"write def {self.argument}({', '.join(self.required)}): return […]"
+                remedy = self._written
                 # no function stands below
                 if isinstance(given, int) and given >= 4096:
                     remedy += "; of an address, ctypes.CFUNCTYPE(None, …)(address) makes a function"
+                raise InputError(said, argument=self.argument, remedy=remedy)
+            if given is None:
+                said, remedy = f"`{self.argument}` is missing", f"give numbers, or {self._written}"
                 raise InputError(said, argument=self.argument, remedy=remedy)
             return Part(self.argument, _numbers(self.argument, given))
         if is_compiled(given) and not self.may_call:
             raise InputError(
                 f"`{self.argument}` is a function of C, and can only be one that is traced, or numbers",
                 argument=self.argument,
-                remedy=f"write def {self.argument}({', '.join(self.required)}): return […]",
+                remedy=self._written,
             )
         if self.may_call and (is_compiled(given) or not self.trace):
             return Part(self.argument, called=called(self, given))

@@ -22,6 +22,7 @@ from givens._rows import controls_of, measured, noise_shapes, with_noise
 from givens._scalars import mapping, text
 from givens._steep import Derivatives
 from givens._tables import is_table, rows_by_track
+from givens._trace.arguments import parameter_value
 from givens.errors import InputError
 from givens.gaussian import Gaussian
 from givens.model_file import ModelFile
@@ -168,6 +169,8 @@ def with_parameters(model: Any, sensors: Any, values: Mapping[str, Any]) -> tupl
     """Model and sensors with these parameters, wherever one has one of that name."""
     if not values:
         return model, sensors
+    for name, value in values.items():
+        _finite(name, value)
     if isinstance(model, ModelFile):
         return model.with_params(**values), sensors
     owners: list[Parametric] = [model, *sensors_of(sensors)]
@@ -179,6 +182,17 @@ def with_parameters(model: Any, sensors: Any, values: Mapping[str, Any]) -> tupl
             known_name("params", name, sorted(known), "parameter of the model or a sensor")
     new = [owner.with_params(**{n: v for n, v in values.items() if n in owner.parameters}) for owner in owners]
     return new[0], new[1:]
+
+
+def _finite(name: str, value: Any) -> None:
+    array = parameter_value("params", name, value)
+    if not np.isfinite(array).all():
+        raise InputError(
+            f"`params`: the parameter `{name}` is {array[~np.isfinite(array)][0]}",
+            argument="params",
+            component=name,
+            remedy="give a finite number",
+        )
 
 
 def _track(model: Any, joined: Joined, choice: _native.Choice, given: Given, t0: Any) -> Track:

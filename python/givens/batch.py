@@ -108,7 +108,17 @@ class Batch(Stacked):
             part = Batch(chosen, [one.failed for one in chosen if one.failed is not None])
             part.track_ids = self.track_ids[index]
             return part
-        return self._estimates[index]
+        if isinstance(index, str):
+            raise InputError(
+                f"tracks are taken by their numbers, not by names such as {index!r}",
+                argument="index",
+                remedy=f"batch.track({index!r}) takes names",
+            )
+        try:
+            return self._estimates[index]
+        except IndexError:
+            count = "there is one track" if len(self) == 1 else f"there are {len(self)} tracks"
+            raise IndexError(f"there is no track number {index}: {count}, numbered from 0") from None
 
     def __len__(self) -> int:
         return len(self._estimates)

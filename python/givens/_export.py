@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from givens._lazy import wanted
+from givens._stack import padded
 from givens.errors import InputError
 
 if TYPE_CHECKING:
@@ -88,17 +89,17 @@ _DIMS: dict[str, tuple[str, ...]] = {
 }
 
 
-def _xarray(of: Estimates | Batch, one: Estimates, front: tuple[str, ...], coords: dict[str, Any]) -> Any:
+def _xarray(of: Callable[[str], Any], one: Estimates, front: tuple[str, ...], coords: dict[str, Any]) -> Any:
     xarray = wanted("xarray")
     names, measures = list(one.state), list(one.measures)
     coords |= {"state": names, "state2": names, "measure": measures, "measure2": measures}
-    data = {name: ((*front, *dims), getattr(of, name)) for name, dims in _DIMS.items()}
+    data = {name: ((*front, *dims), of(name)) for name, dims in _DIMS.items()}
     return xarray.Dataset(data, coords, {"method": one.method, "smoothed": int(one.is_smoothed)})
 
 
 def to_xarray(one: Estimates) -> Any:
     """See `Estimates.to_xarray`."""
-    return _xarray(one, one, ("time",), {"time": np.asarray(one.time)})
+    return _xarray(lambda name: getattr(one, name), one, ("time",), {"time": np.asarray(one.time)})
 
 
 def batch_to_xarray(batch: Batch) -> Any:
@@ -108,6 +109,9 @@ def batch_to_xarray(batch: Batch) -> Any:
         return xarray.Dataset()
     longest = max(batch, key=len)
     alike = all(np.array_equal(one.time, longest.time[: len(one)]) for one in batch)
+    runs = tuple(batch)
     coords: dict[str, Any] = {"track": batch.track_ids}
-    coords["time"] = np.asarray(longest.time) if alike else (("track", "row"), np.asarray(batch.time))
-    return _xarray(batch, longest, ("track", "time" if alike else "row"), coords)
+    coords["time"] = np.asarray(longest.time) if alike else (("track", "row"), padded([one.time for one in runs]))
+    front = ("track", "time" if alike else "row")
+    found = _xarray(lambda name: padded([getattr(one, name) for one in runs]), longest, front, coords)
+    return found.assign(rows=("track", [len(one) for one in runs]))

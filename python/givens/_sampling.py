@@ -8,17 +8,31 @@ import numpy as np
 
 from givens import _native
 from givens._arrays import Array
+from givens._memory import room
 from givens.errors import InputError
 
 if TYPE_CHECKING:
     from givens._plan import Track
     from givens.estimates import Estimates
 
-__all__ = ["draws"]
+__all__ = ["PIECES", "bytes_of", "draws"]
+
+
+#: How to draw more than there is memory for.
+PIECES = "draw fewer at a time, each time with another seed"
+#: Bytes of the native half's numbers at random, which each trajectory has of its own.
+_STREAM = 320
+
+
+def bytes_of(one: Estimates) -> int:
+    """What one draw needs: its states, and beside them a stream, or the numbers that they are made of."""
+    states = 8 * one.mean.size
+    return states + _STREAM if one.__dict__["_whole"] else 2 * states
 
 
 def draws(one: Estimates, n: int, seed: int, number: int = 0) -> Array:
     """See `Estimates.sample`; tracks of another number draw otherwise from the same seed."""
+    room("n", n, bytes_of(one), PIECES)
     if one.__dict__["_whole"]:
         return _paths(one, n, seed, number)
     normal = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(number,)))
@@ -28,7 +42,7 @@ def draws(one: Estimates, n: int, seed: int, number: int = 0) -> Array:
         raise InputError(
             f"`n` is {n}: they need {8 * n * one.mean.size:.3e} bytes at once, more than there is memory for",
             argument="n",
-            remedy="draw fewer at a time, each time with another seed",
+            remedy=PIECES,
         ) from None
     spread += one.mean
     return spread

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -14,30 +14,32 @@ from givens.errors import InputError
 if TYPE_CHECKING:
     from givens.estimates import Estimates
 
-__all__ = ["Stacked", "stacked"]
+__all__ = ["Stacked", "is_ragged", "padded"]
 
 
-def stacked(
-    runs: Sequence[Estimates],
-    name: str,
-    of: Callable[[int, Estimates], np.ndarray[Any, Any]],
-    *,
-    axis: int = 0,
-    remedy: str = "take them one by one: [est.{} for est in batch]",
-) -> Any:
-    """What `of` gives for each track, one behind the other; rows, along `axis`, that one has not reached are NaN."""
-    lengths = {one.__dict__["_rows"] for one in runs}
-    if len(lengths) > 1:
+def is_ragged(runs: Sequence[Estimates]) -> bool:
+    """Whether some tracks have more rows than others, failures apart."""
+    return len({one.__dict__["_rows"] for one in runs}) > 1
+
+
+def stacked(runs: Sequence[Estimates], name: str) -> Any:
+    """The arrays of this name of all tracks, one behind the other; rows that one has not reached are NaN."""
+    if is_ragged(runs):
+        lengths = [one.__dict__["_rows"] for one in runs]
         raise InputError(
             f"the tracks have {min(lengths)} to {max(lengths)} rows: `{name}` cannot be one array",
             argument=name,
-            remedy=remedy.format(name),
+            remedy=f"take them one by one: [est.{name} for est in batch]",
         )
-    rows = max(map(len, runs), default=0)
-    arrays = [_padded(of(k, one), rows, axis) for k, one in enumerate(runs)]
-    found = np.stack(arrays) if arrays else np.empty((0, 0))
+    found = padded([getattr(one, name) for one in runs])
     found.setflags(write=False)
     return found
+
+
+def padded(arrays: Sequence[np.ndarray[Any, Any]], axis: int = 0) -> np.ndarray[Any, Any]:
+    """One behind the other, all of them as long as the longest along `axis`: behind the others stands NaN."""
+    rows = max((array.shape[axis] for array in arrays), default=0)
+    return np.stack([_padded(array, rows, axis) for array in arrays]) if len(arrays) else np.empty((0, 0))
 
 
 def _padded(array: np.ndarray[Any, Any], rows: int, axis: int) -> np.ndarray[Any, Any]:
@@ -57,7 +59,7 @@ class Stacked:
     _estimates: tuple[Estimates, ...]
 
     def _all(self, name: str) -> Any:
-        return stacked(self._estimates, name, lambda _, one: getattr(one, name))
+        return stacked(self._estimates, name)
 
     def _stacked(self, name: str) -> Array:
         found: Array = self._all(name)

@@ -12,10 +12,11 @@ from givens import _native
 from givens._arrays import Array
 from givens._by_track import near_track
 from givens._in_track import tell, told_by_number
+from givens._memory import room
 from givens._plan import Goal, Track
-from givens._sampling import draws
+from givens._sampling import PIECES, bytes_of, draws
 from givens._scalars import seed_of, shown, threads_of, whole
-from givens._stack import Stacked, stacked
+from givens._stack import Stacked, is_ragged, padded
 from givens.consistency import Consistency, consistency_of
 from givens.errors import InputError, StepError
 from givens.estimates import Estimates, step_error
@@ -161,7 +162,7 @@ class Batch(Stacked):
         there.track_ids = list(self.track_ids)
         return there
 
-    def sample(self, n: int, *, seed: int) -> Array:
+    def sample(self, n: int, *, seed: int) -> Array | list[Array]:
         """Draws states from the estimates of each track, as `Estimates.sample` does from one; tracks draw differently.
 
         Parameters
@@ -173,14 +174,21 @@ class Batch(Stacked):
 
         Returns
         -------
-        ndarray, shape (runs, n, rows, states)
+        ndarray, shape (runs, n, rows, states), or list of ndarray
+            Rows behind the failure of a track are NaN. Of tracks with different numbers of rows a list, with an array
+            of shape (n, rows, states) for each.
+
+        Raises
+        ------
+        InputError
+            For more draws than there is memory for.
         """
         n, seed = whole("n", n), seed_of(seed)
-        one_by_one = "take them one by one: [est.{}(n, seed=k) for k, est in enumerate(batch)]"
-        drawn: Array = stacked(
-            self._estimates, "sample", lambda k, one: draws(one, n, seed, k), axis=1, remedy=one_by_one
-        )
-        return drawn
+        ragged = is_ragged(self._estimates)
+        # those of all tracks stand beside those of each, until they are one array
+        room("n", n, (1 if ragged else 2) * sum(map(bytes_of, self._estimates)), PIECES)
+        drawn = [draws(one, n, seed, k) for k, one in enumerate(self._estimates)]
+        return drawn if ragged else padded(drawn, axis=1)
 
     def consistency(self) -> Consistency:
         """Of all tracks together."""
@@ -213,6 +221,7 @@ class Batch(Stacked):
         """A data set with the dimensions track, time, state, state2, measure, measure2.
 
         Where tracks have different times there is the dimension row in place of time, and `time` has track and row.
+        Behind the last row of a shorter track stands NaN, NaT, or 0 in `nis_dof`; `rows` says how many each track has.
         """
         from givens._export import batch_to_xarray
 

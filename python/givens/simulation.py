@@ -13,8 +13,10 @@ from givens._arrays import Array
 from givens._capsules import framed
 from givens._clock import clock_of
 from givens._join import join
+from givens._memory import room
 from givens._plan import read_prior, with_parameters
 from givens._rows import controls_of, noise_shapes, with_noise
+from givens._sampling import PIECES
 from givens._scalars import MOST_RUNS, mapping, seed_of, threads_of, whole
 from givens._steep import refuse_steep_paths
 from givens.gaussian import Gaussian
@@ -105,6 +107,8 @@ def simulate(
     times = clock.times("t", t)
     time = times.seconds
     drawn_from, count = seed_of(seed), 1 if runs is None else whole("runs", runs, 0, MOST_RUNS)
+    each = 8 * len(time) * (len(joined.states) + len(joined.measures))
+    room("runs", count, each, PIECES)
     z = np.zeros((len(time), len(joined.measures)))
     controls = with_noise(joined, controls_of(joined, u, len(time)), noise, z)
     mean, cov = read_prior(model, prior, joined.states)

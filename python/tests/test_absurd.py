@@ -181,7 +181,7 @@ def test_draws_for_which_there_is_no_memory_are_refused():
     long = {"t": np.arange(3000), "z": np.ones((3000, 2))}
     batch = run(t=long["t"], z=[long["z"]] * 2)
     for draw in (run(**long).sample, run(**long, how=gv.smooth).sample, batch.sample):
-        with pytest.raises(gv.InputError, match="`n` is 2147483647: they need .* bytes at once, more than there is") as caught:
+        with pytest.raises(gv.InputError, match="`n` is 2147483647: they need .* bytes at once, more than the") as caught:
             draw(2**31 - 1, seed=1)
         assert caught.value.remedy == "draw fewer at a time, each time with another seed"
     with pytest.raises(gv.InputError, match="`runs` is 4294967295: they need .* bytes at once"):

@@ -96,8 +96,14 @@ def test_samples_of_a_batch_are_those_of_its_tracks_and_differ():
     np.testing.assert_array_equal(batch.sample(2, seed=3), drawn[:, :2])
     filtered = run(z=np.stack([Z, Z])).sample(5, seed=3)
     assert (filtered[0] != filtered[1]).all()
-    with pytest.raises(gv.InputError, match=r"help: take them one by one: \[est.sample\(n, seed=k\) for k, est in"):
-        gv.filter(MODEL, LENGTH, [T, T[:7]], [Z, Z[:7]], prior=PRIOR).sample(2, seed=1)
+
+
+def test_samples_of_tracks_of_unequal_lengths_are_a_list():
+    for how in (gv.filter, gv.smooth):
+        ragged = how(MODEL, LENGTH, [T, T[:7]], [Z, Z[:7]], prior=PRIOR)
+        drawn = ragged.sample(2, seed=1)
+        assert [one.shape for one in drawn] == [(2, 20, 2), (2, 7, 2)]
+        np.testing.assert_array_equal(drawn[0], ragged[0].sample(2, seed=1))
 
 
 def test_samples_behind_a_failure_are_nan():
@@ -142,11 +148,29 @@ def test_a_batch_is_a_data_set():
     data = batch.to_xarray()
     assert dict(data.sizes) == {"track": 3, "time": 20, "state": 2, "state2": 2, "measure": 1, "measure2": 1}
     np.testing.assert_array_equal(data["mean"].sel(track=1, state="v"), batch[1].mean[:, 1])
-    assert set(data.data_vars) == set(batch[0].to_xarray().data_vars)
+    assert set(data.data_vars) == {"rows", *batch[0].to_xarray().data_vars}
+    assert data["rows"].dims == ("track",) and data["rows"].values.tolist() == [20, 20, 20]
     shifted = gv.filter(MODEL, LENGTH, [T, T + 0.1], [Z, Z], prior=PRIOR).to_xarray()
     assert shifted["time"].dims == ("track", "row") and shifted["nis"].dims == ("track", "row")
     failed = one_that_fails().to_xarray()
     assert failed.sizes["time"] == 5 and np.isnan(failed["mean"][1, -1]).all()
+
+
+@pytest.mark.parametrize("times", [T, DATES])
+def test_a_data_set_of_tracks_of_unequal_lengths_says_how_many_rows_each_has(times):
+    pytest.importorskip("xarray")
+    ragged = gv.filter(MODEL, LENGTH, [times[1:], times[:7]], [Z[1:], Z[:7]], prior=PRIOR)
+    data = ragged.to_xarray()
+    assert data["rows"].values.tolist() == [19, 7] and data["mean"].dims == ("track", "row", "state")
+    for k, one in enumerate(ragged):
+        rows = int(data["rows"][k])
+        np.testing.assert_array_equal(data["cov"][k, :rows], one.cov)
+        np.testing.assert_array_equal(data["time"][k, :rows], one.time)
+        assert np.isnan(data["nis"][k, rows:]).all() and (data["nis_dof"][k, rows:] == 0).all()
+        assert data["time"][k, rows:].isnull().all()
+    shared = gv.filter(MODEL, LENGTH, [times, times[:7]], [Z, Z[:7]], prior=PRIOR).to_xarray()
+    assert shared["mean"].dims == ("track", "time", "state") and shared["rows"].values.tolist() == [20, 7]
+    assert np.isnan(shared["mean"][1, 7:]).all()
 
 
 def test_tables_of_many_tracks_name_each_row():

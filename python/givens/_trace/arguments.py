@@ -59,7 +59,9 @@ def parameter_value(argument: str, name: str, value: object) -> npt.NDArray[np.f
             f"`{argument}`: the parameter `{name}` is NaN",
             argument=argument,
             component=name,
-            remedy="give a finite number" if argument == "params" else "give it a number, as a default or in parameters={…}",
+            remedy="give a finite number"
+            if argument == "params"
+            else "give it a number, as a default or in parameters={…}",
         )
     array.setflags(write=False)
     return array

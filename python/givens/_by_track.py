@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from givens._arrays import array_of, dimensions
 from givens._scalars import shown
 from givens.errors import InputError
 
-__all__ = ["by_track", "near_track"]
+__all__ = ["by_track", "near_track", "starts"]
 
 #: So many names stand in a message, and the number of the others.
 _SHOWN = 5
@@ -34,6 +35,22 @@ def by_track(argument: str, table: Mapping[Any, Any], tracks: Sequence[Any]) -> 
             remedy="give one for each track",
         )
     return [table[name] for name in tracks]
+
+
+def starts(t0: Any, tracks: Sequence[Any], batch: bool) -> list[Any]:
+    """When each track begins: at one time for all, by name, or in their order; None is at its first row."""
+    if batch and isinstance(t0, Mapping):
+        return by_track("`t0`", t0, tracks)
+    if not batch or dimensions(t0) != 1:
+        return [t0] * len(tracks)
+    each = list(array_of(t0))
+    if len(each) != len(tracks):
+        raise InputError(
+            f"`t0` has {len(each)} times, but there are {len(tracks)} tracks",
+            argument="t0",
+            remedy="give one for each, or one for all",
+        )
+    return each
 
 
 def _plain(name: Any) -> Any:

@@ -11,6 +11,7 @@ import numpy as np
 
 from givens import _native
 from givens._arrays import Array
+from givens._by_track import starts
 from givens._capsules import framed
 from givens._clock import Clock, Times, clock_of
 from givens._dynamics import Parametric
@@ -110,10 +111,9 @@ def plan(
         return _of_file(model, plain, choice, _path(t), prior, t0)
     widths = {name: place.stop - place.start for name, place in plain.sensors.items()}
     if z is None and is_table(t):
-        rows = rows_by_track(plain, t)
         given = [
-            Given(track["time"], track["z"], track["u"] if u is None else u, id=track["id"], rows=track["rows"])
-            for track in rows
+            Given(track["time"], track["z"], track["u"], id=track["id"], rows=track["rows"])
+            for track in rows_by_track(plain, t, u)
         ]
         batch = not given or given[0].id is not None
         if noise is not None and batch:
@@ -128,7 +128,7 @@ def plan(
     else:
         given, batch = split(plain, t, z, u, noise)
     names = [k if track.id is None else track.id for k, track in enumerate(given)]
-    priors = each_of("prior", prior, names, batch, Gaussian)
+    priors, begun = each_of("prior", prior, names, batch, Gaussian), starts(t0, names, batch)
     table = mapping("params", params, "params={name: value}")
     values = parameters_by_run(table, _shapes(model, sensors), names, batch)
     tracks: list[Track] = []
@@ -138,7 +138,7 @@ def plan(
             shapes = noise_shapes(track.noise, widths)
             if shapes or values:
                 joined = join(*with_parameters(model, sensors, values[k]) if values else (model, sensors), shapes)
-            tracks.append(_track(model, joined, choice, replace(track, prior=priors[k]), t0))
+            tracks.append(_track(model, joined, choice, replace(track, prior=priors[k]), begun[k]))
             tracks[-1].refuse_steep(derivatives)
     return tracks, batch
 
@@ -255,14 +255,16 @@ def _of_file(
         )
     read = _native.read_tracks(model.native, path)
     tracks = []
-    priors = each_of("prior", prior, [one["id"] for one in read["tracks"]], read["has_track_id"], Gaussian)
-    for one, own in zip(read["tracks"], priors, strict=True):
+    names = [one["id"] for one in read["tracks"]]
+    priors = each_of("prior", prior, names, read["has_track_id"], Gaussian)
+    begun = starts(t0, names, read["has_track_id"])
+    for one, own, begins in zip(read["tracks"], priors, begun, strict=True):
         clock = Clock() if one["origin"] is None else Clock(np.datetime64(one["origin"].removesuffix("Z"), "ns"), None)
         times = Times(one["time"], clock.shown(one["time"]))
         mean, cov, start, before, z = one["mean"], one["cov"], one["t0"], one["row"], one["z"]
         if own is not None:
             (mean, cov), before = read_prior(model, own, joined.states), 0
-            start = start if t0 is None else clock.moment("t0", t0)
+            start = start if begins is None else clock.moment("t0", begins)
         elif one["started"]:
             z = np.array(z)
             z[before] = np.nan

@@ -12,6 +12,7 @@ from givens._dates import Dates, dates_of, seconds_of
 from givens._frames import columns_of, twice
 from givens._join import Joined
 from givens._names import known_name, listed
+from givens._rows import controls_of
 from givens._scalars import shown
 from givens._shared import refuse_shared, refuse_shared_rows
 from givens.errors import InputError
@@ -95,8 +96,11 @@ def _words(name: str, column: Any) -> list[Any]:
     return [None if is_null(value) else value for value in (list(array) if fine else array.tolist())]
 
 
-def rows_by_track(joined: Joined, table: Any) -> list[dict[str, Any]]:
-    """The rows of each track, in the order in which tracks appear: `id`, `time`, `z`, `u`, `rows` of the table."""
+def rows_by_track(joined: Joined, table: Any, controls: Any = None) -> list[dict[str, Any]]:
+    """The rows of each track, in the order in which tracks appear: `id`, `time`, `z`, `u`, `rows` of the table.
+
+    `controls` stand beside the rows of the table, in place of its columns.
+    """
     columns = _Columns(table)
     time = next((columns[name] for name in _TIME if name in columns), None)
     if time is None:
@@ -113,7 +117,7 @@ def rows_by_track(joined: Joined, table: Any) -> list[dict[str, Any]]:
         )
     rows = len(times)
     z = _measures(joined, columns, rows)
-    u = _controls(joined, columns, rows)
+    u = _controls(joined, columns, rows) if controls is None else _beside(joined, columns, controls, rows)
     if _TRACK not in columns:
         return [{"id": None, "time": times, "z": z, "u": u, "rows": None}]
     found: dict[Any, list[int]] = {}
@@ -182,6 +186,19 @@ def _measures(joined: Joined, columns: Mapping[str, Any], rows: int) -> Array:
     return z
 
 
+def _beside(joined: Joined, columns: Mapping[str, Any], controls: Any, rows: int) -> Array | None:
+    for name in joined.controls:
+        for column in (f"u_{name}", name):
+            if column in columns:
+                raise InputError(
+                    f"`u` is given, and the table has the column `{column}` as well",
+                    argument="u",
+                    component=name,
+                    remedy="leave one of them out",
+                )
+    return controls_of(joined, controls, rows)
+
+
 def _controls(joined: Joined, columns: Mapping[str, Any], rows: int) -> Array | None:
     found = []
     for name in joined.controls:
@@ -191,7 +208,7 @@ def _controls(joined: Joined, columns: Mapping[str, Any], rows: int) -> Array | 
                 f"the table has no column `u_{name}` for the control `{name}`",
                 argument="u",
                 component=name,
-                remedy="add it: its values hold from their rows on",
+                remedy="add it: its values hold from their rows on; or give u=…, row by row or {name: number}",
             )
         found.append(_floats(column, columns[column], rows))
     return np.stack(found, axis=1) if found else None

@@ -62,9 +62,11 @@ def filter(
     method : str, optional
         A name of `methods`; by default ``"sr-cd-ckf"`` or ``"sr-ckf"``.
     t0 : float or date, optional
-        When the prior holds; by default at the first row, which is then updated without a prediction.
+        When the prior holds; by default at the first row, which is then updated without a prediction. Of a batch also
+        one for each track, as a list or by their names; None is at its first row.
     u : array_like, shape (rows, c), or mapping, optional
-        Controls, each holding from its row to the next.
+        Controls, each holding from its row to the next; of a table that has no columns of them, one row for each of its
+        rows.
     at : array_like, optional
         Times at which estimates are wanted, in place of those of the rows; asking changes no other number.
     noise : array_like or mapping, optional

@@ -107,7 +107,8 @@ def simulate(
     times = clock.times("t", t)
     time = times.seconds
     drawn_from, count = seed_of(seed), 1 if runs is None else whole("runs", runs, 0, MOST_RUNS)
-    each = 8 * len(time) * (len(joined.states) + len(joined.measures))
+    # numbers are kept twice while they are put together
+    each = 16 * len(time) * (len(joined.states) + len(joined.measures))
     room("runs", count, each, PIECES)
     z = np.zeros((len(time), len(joined.measures)))
     controls = with_noise(joined, controls_of(joined, u, len(time)), noise, z)

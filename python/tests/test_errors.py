@@ -393,11 +393,6 @@ CASES = [
         "row 1, t = 1e300: a gap of 1e300 is not a whole number of steps of 0.5\n  help: put the rows on whole steps, or write the transition in `dt` and leave `step` out",
     ),
     (
-        lambda: gv.simulate(MODEL, LENGTH, T, prior=PRIOR, seed=1, runs=2_000_000_000),
-        gv.InputError,
-        "`runs` is 2000000000: they need 2.064e12 bytes at once, more than there is memory for\n  help: draw fewer at a time, each time with another seed",
-    ),
-    (
         lambda: gv.filter(MODEL, LENGTH, T, np.where(T[:, None] == 2, np.inf, Z), prior=PRIOR),
         gv.InputError,
         "row 3: measure `length` is infinite\n  help: a missing component is NaN",

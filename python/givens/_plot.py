@@ -78,9 +78,9 @@ def verdict(axes: Any, found: Consistency) -> None:
     """What the innovations say together."""
     axes.axhline(1, color=FILTERED, linewidth=0.8)
     axes.set_ylim(bottom=0)
-    low, high = found.band
-    words = f"{found.verdict}: mean NIS {found.ratio:.3f} per degree of freedom, 95 % band {low:.3f} to {high:.3f}"
-    axes.set_title(words, fontsize="small", loc="left")
+    # the words of `Estimates.consistency`, in lines that fit
+    lines = [part for line in found._lines for part in line.replace(": mean", ":\nmean").split("\n")]
+    axes.set_title("\n".join(lines), fontsize="small", loc="left")
 
 
 def _state(axes: Any, one: Estimates, i: int, truth: Array | None) -> None:

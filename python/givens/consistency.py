@@ -50,15 +50,22 @@ class Consistency:
         """Whether innovations are unrelated to those before, as far as one can tell."""
         return not abs(self.correlation) > self.correlation_bound
 
-    def __str__(self) -> str:
+    @property
+    def _lines(self) -> list[str]:
+        """What is said, in parts: of size, with its numbers, and of what innovations follow from."""
+        size = self.text
         if not np.isfinite(self.correlation):
-            return self.text
-        words = (
-            "unrelated to those before" if self.is_white else "related to those before: the model may miss something"
-        )
-        return (
-            f"{self.text}; innovations {words} (correlation {self.correlation:.3f}, bound {self.correlation_bound:.3f})"
-        )
+            return [size]
+        words = "unrelated to those before"
+        if not self.is_white:
+            words = "related to those before: the model may miss something"
+            # of the size alone, that is
+            size = size.replace("consistent:", "consistent in size:") if self.verdict == "consistent" else size
+        numbers = f"correlation {self.correlation:.3f}, bound {self.correlation_bound:.3f}"
+        return [size, f"innovations {words} ({numbers})"]
+
+    def __str__(self) -> str:
+        return "; ".join(self._lines)
 
     def _repr_html_(self) -> str:
         from html import escape

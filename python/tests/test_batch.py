@@ -251,3 +251,15 @@ def test_the_truth_of_a_run_that_failed_may_have_all_its_rows():
     for rows in (5, len(failed)):
         matplotlib.pyplot.close(failed.plot(truth=np.zeros((rows, 2))))
     matplotlib.pyplot.close(run().plot(truth=pytest.importorskip("pandas").DataFrame({"v": T, "x": T})))
+
+
+def test_a_track_that_fails_has_answered_the_times_before():
+    z = np.array([[0.0], [0.0], [1e200], [0.0]])
+    model = gv.Transition(lambda t, dt, x: x, noise_cov=lambda t, dt: [[0.1 * dt]], state=["x"])
+    sensor, prior = gv.Sensor(lambda t, x: x, measures=["z"], std=[1.0]), gv.Gaussian([0.0], std=[10.0])
+    for how, answered in ((gv.filter, [0.5, 1.0, 1.5]), (gv.smooth, [0.5, 1.0])):
+        batch = how(model, sensor, np.arange(4.0), [z, np.zeros((4, 1))], prior=prior, at=[0.5, 1.0, 1.5, 2.5])
+        assert [len(one) for one in batch] == [len(answered), 4]
+        assert batch[0].time.tolist() == answered and batch[0].failed.row == 2
+        np.testing.assert_allclose(batch[0].mean, batch[1].mean[: len(answered)], atol=1e-12)
+        assert np.isnan(batch.mean[0, len(answered) :]).all()

@@ -31,7 +31,7 @@ def test_draws_beyond_the_free_memory_are_refused_with_their_bytes(monkeypatch, 
 
 def test_runs_beyond_the_free_memory_are_refused(monkeypatch):
     monkeypatch.setattr(_memory, "free", lambda: 10**8)
-    with pytest.raises(gv.InputError, match=r"^`runs` is 10000000: they need 1.44e\+08 bytes at once, more than the 1e\+08"):
+    with pytest.raises(gv.InputError, match=r"^`runs` is 10000000: they need 1.44e\+09 bytes at once, more than the 1e\+08"):
         gv.simulate(MODEL, LENGTH, T[:3], prior=PRIOR, seed=1, runs=10**7)
     monkeypatch.setattr(_memory, "free", lambda: None)
     assert gv.simulate(MODEL, LENGTH, T[:3], prior=PRIOR, seed=1, runs=10**6).x.shape == (10**6, 3, 2)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from time import perf_counter
 from typing import Any
 
@@ -44,12 +44,14 @@ class Compared:
     log_likelihood : float
     consistency : Consistency
     rmse : ndarray, shape (n,), or None
-        Of each state, against the truth.
+        Of each state, against the truth: over the rows that all methods finished, but for those that finished none.
     nees : float or None
         Mean NEES for each degree of freedom: 1 of a filter that is right.
     failed : list of StepError or MethodError
         A `MethodError` of a method that does not go with the model, which has not run at all.
     estimates : Estimates or Batch
+    scored : int
+        Rows over which `rmse` and `nees` are taken.
     """
 
     method: str
@@ -61,6 +63,7 @@ class Compared:
     nees: float | None
     failed: list[StepError | InputError]
     estimates: Estimates | Batch | None
+    scored: int = 0
 
 
 class Comparison(list[Compared]):
@@ -78,6 +81,7 @@ class Comparison(list[Compared]):
             verdict = one.consistency.verdict if one.estimates is not None else "not run"
             row |= {"verdict": verdict, "µs/row": 1e6 * one.seconds_per_row}
             if scored:
+                row["rows scored"] = one.scored
                 # a method that has not run has no errors
                 rmse = np.full(len(self.state), np.nan) if one.rmse is None else one.rmse
                 row |= {f"{name} RMSE": value for name, value in zip(self.state, rmse, strict=True)}
@@ -191,10 +195,12 @@ def compare(
         if seconds < _QUICK:
             # the first run has prepared the model's derivatives for all that follow
             seconds = min(seconds, *(_timed(model, sensors, t, z, arguments)[1] for _ in range(2)))
-        found.append(_compared(name, run, seconds, truth))
+        found.append(_compared(name, run, seconds))
         found.state = run.state
     if refused is not None and all(one.estimates is None for one in found):
         raise refused
+    if truth is not None:
+        found[:] = _scored(found, truth)
     return found
 
 
@@ -219,18 +225,40 @@ def _timed(model: Any, sensors: Any, t: Any, z: Any, arguments: Mapping[str, Any
     return run, perf_counter() - begun
 
 
-def _compared(name: str, run: Estimates | Batch, seconds: float, truth: Any) -> Compared:
-    each = list(run) if isinstance(run, Batch) else [run]
+def _compared(name: str, run: Estimates | Batch, seconds: float) -> Compared:
+    each = _each(run)
     rows = sum(map(len, each))
     failed: list[StepError | InputError] = [one.failed for one in each if one.failed is not None]
-    rmse, nees = (None, None) if truth is None else _accuracy(each, truth, isinstance(run, Batch))
     total = float(sum(one.total_log_likelihood for one in each))
-    return Compared(name, seconds / max(rows, 1), rows, total, consistency_of(each), rmse, nees, failed, run)
+    return Compared(name, seconds / max(rows, 1), rows, total, consistency_of(each), None, None, failed, run)
 
 
-def _accuracy(each: Sequence[Estimates], truth: Any, batch: bool) -> tuple[Array, float]:
-    known = truths_of(each, truth) if batch else [truth_of(each[0], truth)]
-    mean = np.concatenate([estimates.mean for estimates in each])
-    cov = np.concatenate([estimates.cov for estimates in each])
-    found = _native.accuracy(mean, cov, np.concatenate(known))
-    return found["rmse"], found["nees"] / found["nees_dof"] if found["nees_dof"] else float("nan")
+def _each(run: Estimates | Batch) -> list[Estimates]:
+    return list(run) if isinstance(run, Batch) else [run]
+
+
+def _scored(table: Sequence[Compared], truth: Any) -> list[Compared]:
+    """With errors against the truth, all of them over the same rows: those that no method lacks."""
+    runs = [one.estimates for one in table if one.estimates is not None]
+    finished = [[len(one) for one in _each(run)] for run in runs if any(map(len, _each(run)))]
+    rows = np.min(finished, axis=0).tolist() if finished else []
+    return [
+        one if one.estimates is None else replace(one, **_accuracy(one.estimates, truth, rows if one.rows else []))
+        for one in table
+    ]
+
+
+def _accuracy(run: Estimates | Batch, truth: Any, rows: Sequence[int]) -> dict[str, Any]:
+    """Over the first `rows` of each track."""
+    each = _each(run)
+    known = truths_of(each, truth) if isinstance(run, Batch) else [truth_of(each[0], truth)]
+    rows = rows or [0] * len(each)
+
+    def first(arrays: Iterable[Array], *shape: int) -> Array:
+        return np.concatenate([np.empty((0, *shape)), *(array[:k] for array, k in zip(arrays, rows, strict=True))])
+
+    n = len(run.state)
+    mean, cov = first((one.mean for one in each), n), first((one.cov for one in each), n, n)
+    found = _native.accuracy(mean, cov, first(known, n))
+    nees = found["nees"] / found["nees_dof"] if found["nees_dof"] else float("nan")
+    return {"rmse": found["rmse"], "nees": nees, "scored": max(found["rows"], default=0)}

@@ -36,7 +36,7 @@ CASES = {
     ),
     "no column of controls": (
         lambda: gv.filter(PUSHED, BOTH, {"time": [0, 1], "p": [1, 1], "q": [1, 1]}, prior=WIDE),
-        "the table has no column `u_e` for the control `e`\n  help: add it: its values hold from their rows on",
+        "the table has no column `u_e` for the control `e`\n  help: add it: its values hold from their rows on; or give u=…, row by row or {name: number}",
     ),
     "truth that is short": (
         lambda: compared(np.zeros((7, 2))),

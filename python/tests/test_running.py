@@ -356,3 +356,5 @@ def test_controls_hold_from_their_row_on_and_may_have_a_default():
     np.testing.assert_allclose(est.mean[:, 1], v, atol=1e-9)
     free = gv.Sde(pushed, diffusion=[0.0, 1e-6], state=["x", "v"])
     assert np.allclose(gv.filter(free, LENGTH, T, np.full_like(Z, np.nan), prior=PRIOR, t0=0.0).mean[:, 1], 0)
+
+

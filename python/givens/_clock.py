@@ -58,6 +58,9 @@ class Clock:
 
     def moment(self, argument: str, time: Any) -> float:
         """One time as seconds since the origin."""
+        if self.origin is None and (isinstance(time, float) or (type(time) is int and abs(time) < 2**53)):
+            # as it comes to a filter at work
+            return float(time)
         if time is None:
             raise InputError(f"`{argument}` is missing", argument=argument, remedy="give a number, or a date")
         if dimensions(time) != 0:

@@ -98,10 +98,9 @@ class Parametric:
         return f"{type(self).__name__}({inner})"
 
     def _repr_html_(self) -> str:
-        from html import escape
+        from givens._html import fields_html
 
-        rows = "".join(f"<tr><th>{escape(k)}</th><td>{escape(v)}</td></tr>" for k, v in self._table() if v)
-        return f"<table><caption>{type(self).__name__}</caption>{rows}</table>"
+        return fields_html(type(self).__name__, self._table())
 
     def _shown_parameters(self) -> str:
         shown = {name: value.tolist() for name, value in self._parameters.items()}

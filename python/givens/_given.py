@@ -131,7 +131,7 @@ def _noise_by_run(joined: Joined, noise: Any, rows: list[int]) -> list[Any]:
         return _noises("noise", noise, len(joined.measures), rows)
     for name in noise:
         known_name("noise", name, tuple(joined.sensors), "sensor")
-    widths = {name: place.stop - place.start for name, place in joined.sensors.items()}
+    widths = joined.widths
     split = {name: _noises(f"noise[{name!r}]", value, widths[name], rows) for name, value in noise.items()}
     return [{name: values[k] for name, values in split.items()} for k in range(len(rows))]
 

@@ -1,4 +1,4 @@
-"""Estimates as a notebook shows them."""
+"""Models, estimates and listings as a notebook shows them."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from givens.estimates import Estimates
     from givens.gaussian import Gaussian
 
-__all__ = ["batch_html", "estimates_html", "gaussian_html"]
+__all__ = ["batch_html", "estimates_html", "fields_html", "gaussian_html", "listing_html"]
 
 _SHOWN = 6
 
@@ -53,10 +53,21 @@ def gaussian_html(one: Gaussian) -> str:
     return _table(header, n, cells)
 
 
-def _table(header: Sequence[str], rows: int, cells: Callable[[int], Iterable[str]]) -> str:
+def listing_html(header: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+    """A table of all rows."""
+    return _table(header, len(rows), lambda k: rows[k], len(rows))
+
+
+def fields_html(name: str, fields: Sequence[tuple[str, str]]) -> str:
+    """What a model is made of: one line for each field that has a value."""
+    rows = "".join(f"<tr><th>{escape(key)}</th><td>{escape(value)}</td></tr>" for key, value in fields if value)
+    return f"<table><caption>{name}</caption>{rows}</table>"
+
+
+def _table(header: Sequence[str], rows: int, cells: Callable[[int], Iterable[str]], ends: int = _SHOWN) -> str:
     """A table of the first and the last rows."""
     head = "".join(f"<th>{escape(name)}</th>" for name in header)
-    kept = range(rows) if rows <= 2 * _SHOWN else [*range(_SHOWN), -1, *range(rows - _SHOWN, rows)]
+    kept = range(rows) if rows <= 2 * ends else [*range(ends), -1, *range(rows - ends, rows)]
     gap = f"<td colspan='{len(header)}'>⋮</td>"
     lines = (gap if k < 0 else "".join(f"<td>{escape(cell)}</td>" for cell in cells(k)) for k in kept)
     body = "".join(f"<tr>{line}</tr>" for line in lines)

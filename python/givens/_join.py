@@ -46,6 +46,11 @@ class Joined:
     measuring: tuple[Placed, ...] = ()
 
     @property
+    def widths(self) -> dict[str, int]:
+        """How many measures each sensor has."""
+        return {name: place.stop - place.start for name, place in self.sensors.items()}
+
+    @property
     def kind(self) -> Any:
         """``"continuous"`` or ``"discrete"``."""
         return self.native.kind

@@ -109,7 +109,7 @@ def plan(
     if isinstance(t, (str, os.PathLike)):
         _refuse_beside_file(z=z, u=u, noise=noise, params=params or None, t0=t0 if prior is None else None)
         return _of_file(model, plain, choice, _path(t), prior, t0)
-    widths = {name: place.stop - place.start for name, place in plain.sensors.items()}
+    widths = plain.widths
     if z is None and is_table(t):
         given = [
             Given(track["time"], track["z"], track["u"], id=track["id"], rows=track["rows"])

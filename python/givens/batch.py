@@ -151,14 +151,8 @@ class Batch(Stacked):
         threads : int, optional
             As for `givens.filter`.
         """
-        tracks: list[Track] = [one.__dict__["_track"] for one in self._estimates]
-        if None in tracks:
-            raise InputError(
-                "these estimates come from a pickle and cannot run again",
-                argument="at",
-                remedy="ask before they are pickled, or give at=… to givens.filter",
-            )
-        there = Batch._run(tracks, [one.__dict__["_goal"] for one in self._estimates], times, threads_of(threads))
+        again = [one._run_again() for one in self._estimates]
+        there = Batch._run([track for track, _ in again], [goal for _, goal in again], times, threads_of(threads))
         there.track_ids = list(self.track_ids)
         return there
 

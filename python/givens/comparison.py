@@ -109,12 +109,10 @@ class Comparison(list[Compared]):
         return "\n".join(f"{name}  {others}" for name, others in zip(first, rest, strict=False))
 
     def _repr_html_(self) -> str:
-        from html import escape
+        from givens._html import listing_html
 
         header, *body = self._cells()
-        head = "".join(f"<th>{escape(cell)}</th>" for cell in header)
-        rows = ("".join(f"<td>{escape(cell)}</td>" for cell in line) for line in body)
-        return f"<table><tr>{head}</tr>{''.join(f'<tr>{row}</tr>' for row in rows)}</table>"
+        return listing_html(header, body)
 
 
 def compare(

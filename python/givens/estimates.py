@@ -171,20 +171,24 @@ class Estimates:
         times : array_like
             From the time of the prior on; dates if the data has dates.
         """
-        track: Track | None = self.__dict__["_track"]
-        goal: Goal = self.__dict__["_goal"]
-        if track is None:
-            raise InputError(
-                "these estimates come from a pickle and cannot run again",
-                argument="at",
-                remedy="ask before they are pickled, or give at=… to givens.filter",
-            )
+        track, goal = self._run_again()
         wanted = track.clock.wanted("at", times)
         native = track.run(goal.word, goal.value, wanted.seconds)
         error = step_error(track, native, goal)
         if error is not None:
             raise error
         return Estimates._of(track, native, goal, wanted)
+
+    def _run_again(self) -> tuple[Track, Goal]:
+        """What it was run from, and after what."""
+        track: Track | None = self.__dict__["_track"]
+        if track is None:
+            raise InputError(
+                "these estimates come from a pickle and cannot run again",
+                argument="at",
+                remedy="ask before they are pickled, or give at=… to givens.filter",
+            )
+        return track, self.__dict__["_goal"]
 
     def sample(self, n: int, *, seed: int) -> Array:
         """Draws states from the estimates.

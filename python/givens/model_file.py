@@ -173,10 +173,9 @@ class ModelFile:
         return f"ModelFile({', '.join(f'{key}={value}' for key, value in self._table() if value)})"
 
     def _repr_html_(self) -> str:
-        from html import escape
+        from givens._html import fields_html
 
-        rows = "".join(f"<tr><th>{escape(k)}</th><td>{escape(v)}</td></tr>" for k, v in self._table() if v)
-        return f"<table><caption>ModelFile</caption>{rows}</table>"
+        return fields_html("ModelFile", self._table())
 
 
 _NAME = "give the file a name that is UTF-8"

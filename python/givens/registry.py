@@ -48,17 +48,11 @@ class MethodList(list[Method]):
         return "\n".join(f"{one.name:<12} {one.kind:<11} {one.about}" for one in self)
 
     def _repr_html_(self) -> str:
-        from html import escape
+        from givens._html import listing_html
 
-        header = "".join(f"<th>{word}</th>" for word in ("method", "kind", "about", "rule", "form", "time update"))
-        rows = (
-            "".join(
-                f"<td>{escape(cell)}</td>"
-                for cell in (one.name, one.kind, one.about, one.rule, one.form, one.time_update)
-            )
-            for one in self
-        )
-        return f"<table><tr>{header}</tr>{''.join(f'<tr>{row}</tr>' for row in rows)}</table>"
+        header = ("method", "kind", "about", "rule", "form", "time update")
+        rows = [(one.name, one.kind, one.about, one.rule, one.form, one.time_update) for one in self]
+        return listing_html(header, rows)
 
 
 def methods(kind: str | None = None) -> MethodList:

@@ -100,7 +100,7 @@ def simulate(
     model, sensors = with_parameters(model, sensors, mapping("params", params, "params={name: value}"))
     t, u, noise = framed("t", t), framed("u", u), framed("noise", noise)
     plain = join(model, sensors)
-    widths = {name: place.stop - place.start for name, place in plain.sensors.items()}
+    widths = plain.widths
     joined = join(model, sensors, noise_shapes(noise, widths)) if noise is not None else plain
     clock = clock_of(t, t0)
     start = None if t0 is None else clock.moment("t0", t0)

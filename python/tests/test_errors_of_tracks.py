@@ -60,7 +60,7 @@ CASES = {
     "parameter": (
         lambda: many(params={"k": other(np.ones(30), 17, np.nan)}),
         (17, None),
-        "track 17: `with_params`: the parameter `k` is NaN",
+        "track 17: `params`: the parameter `k` is NaN",
     ),
     "dates": (
         lambda: many(t=other(np.datetime64("2020-01-01") + np.arange(5), 2, np.datetime64("NaT"))),

@@ -54,21 +54,21 @@ def here() -> Place:
 
 def of_traceback(traceback: TracebackType | None) -> Place:
     """The innermost such line of a traceback."""
-    found = Place()
-    while traceback is not None:
-        code = traceback.tb_frame.f_code
-        if is_users(code):
-            found = place_of(code, traceback.tb_lineno)
-        traceback = traceback.tb_next
-    return found
+    found = _innermost(traceback)
+    return place_of(found.tb_frame.f_code, found.tb_lineno) if found is not None else Place()
 
 
 def locals_at(traceback: TracebackType | None) -> dict[str, Any]:
     """The variables at that line."""
-    found: dict[str, Any] = {}
+    found = _innermost(traceback)
+    return found.tb_frame.f_locals if found is not None else {}
+
+
+def _innermost(traceback: TracebackType | None) -> TracebackType | None:
+    found = None
     while traceback is not None:
         if is_users(traceback.tb_frame.f_code):
-            found = traceback.tb_frame.f_locals
+            found = traceback
         traceback = traceback.tb_next
     return found
 

@@ -1,10 +1,10 @@
 //! Every filter and smoother of `golden/discrete.json`, through the library.
 
-use givens::filter::{
-    Block, Cdkf, Ckf, Ckf5, Ekf, Gaussian, Over, Qkf, SrCdkf, SrCkf, SrCkf5, SrEkf, SrQkf, SrUkf, Ukf,
-};
+use givens::filter::{Block, Gaussian, SrCkf};
 use givens::model::zoo::{CoordinatedTurn, RangeBearing};
 use givens::model::{At, Noise, Observation, Transition};
+use givens::registry::Value::Number;
+use givens::registry::{Choice, Setting, resolve};
 use givens::scalar::Real;
 use givens::{Data, Estimates, Goal, run};
 use givens_tests::{cov_error, golden, mean_error, numbers};
@@ -65,15 +65,21 @@ struct Scenario<M, H> {
     tolerance: f64,
 }
 
-impl<M: Transition, H: Observation> Scenario<M, H> {
-    fn run<X: Over<M>>(&self, method: X, goal: Goal) -> Estimates {
+impl<M: Transition + Sync, H: Observation + Sync> Scenario<M, H> {
+    fn data(&self) -> (Data, Gaussian) {
         let mut data = Data::new(2);
         data.push(0.0, &[f64::NAN; 2]).unwrap();
         for (k, z) in numbers(&self.golden["z"]).chunks_exact(2).enumerate() {
             data.push(k as f64 + 1.0, z).unwrap();
         }
         let prior = Gaussian::from_cov(&numbers(&self.golden["m0"]), &numbers(&self.golden["P0"])).unwrap();
-        run(method, &self.model, &self.sensor, data.rows(), 0.0, &prior, goal).into_result().unwrap()
+        (data, prior)
+    }
+
+    fn run(&self, choice: &Choice, goal: Goal) -> Estimates {
+        let (data, prior) = self.data();
+        let run = choice.run(&self.model, &self.sensor, data.rows(), 0.0, &prior, goal, &[]);
+        run.into_result().unwrap()
     }
 
     /// Compares rows `at`, `at` + 1, … of an estimate with one of the golden series.
@@ -98,41 +104,46 @@ impl<M: Transition, H: Observation> Scenario<M, H> {
         }
     }
 
-    fn check<X: Over<M>>(&self, name: &str, method: X) {
+    fn check(&self, name: &str, method: &str, settings: &[(&str, Value)]) {
         let golden = &self.golden["filters"][name];
-        let what = |part: &str| format!("{name} ({}) {part}", std::any::type_name::<X>());
-        let est = self.run(method, Goal::Interval);
+        let what = |part: &str| format!("{name} ({method} {settings:?}) {part}");
+        let setting = |(key, value): &(&str, Value)| Setting {
+            key: (*key).into(),
+            value: value.as_f64().map_or_else(|| value.as_str().unwrap().into(), Number),
+        };
+        let choice = resolve(method, &settings.iter().map(setting).collect::<Vec<_>>()).unwrap();
+        let est = self.run(&choice, Goal::Interval);
         self.compare(&what("filtered"), &golden["filt"], 0, &est, &est.filtered_mean, &est.filtered_cov);
         self.compare(&what("predicted"), &golden["pred"], 1, &est, &est.predicted_mean, &est.predicted_cov);
         self.compare(&what("smoothed"), &golden["smooth"], 0, &est, &est.mean, &est.cov);
         let log_likelihood = golden["loglik"].as_f64().unwrap();
         let error = (est.total_log_likelihood() - log_likelihood).abs();
         assert!(error < 1e-9, "{}: {error:e}", what("log-likelihood"));
-        let lag = self.run(method, Goal::Lag(5));
+        let lag = self.run(&choice, Goal::Lag(5));
         self.compare(&what("lag 5"), &golden["lag5"], 0, &lag, &lag.mean, &lag.cov);
-        let point = self.run(method, Goal::Point(5.0));
+        let point = self.run(&choice, Goal::Point(5.0));
         self.compare(&what("point 5"), &golden["point5"], 0, &point, &point.mean, &point.cov);
     }
 
     fn check_all(&self) {
-        self.check("EKF", Ekf::default());
-        self.check("UKF", Ukf::default());
-        self.check("CDKF", Cdkf::default());
-        self.check("QKF", Qkf::default());
-        self.check("CKF", Ckf::default());
-        self.check("CKF5", Ckf5::default());
-        for update in [Block::Joint, Block::Separate] {
-            self.check("EKF", SrEkf { update });
-            self.check("UKF", SrUkf { update, ..Default::default() });
-            self.check("CDKF", SrCdkf { update, ..Default::default() });
-            self.check("QKF", SrQkf { update, ..Default::default() });
-            self.check("CKF", SrCkf { update });
-            self.check("CKF5", SrCkf5 { update });
+        for (name, method) in [
+            ("EKF", "ekf"),
+            ("UKF", "ukf"),
+            ("CDKF", "cdkf"),
+            ("QKF", "ghkf"),
+            ("CKF", "ckf"),
+            ("CKF5", "ckf5"),
+        ] {
+            self.check(name, method, &[]);
+            for update in ["joint", "separate"] {
+                self.check(name, &format!("sr-{method}"), &[("update", update.into())]);
+            }
         }
-        if !self.golden["filters"]["UKF_a05_b2_k0"].is_null() {
-            let (alpha, beta, kappa) = (0.5, 2.0, Some(0.0));
-            self.check("UKF_a05_b2_k0", Ukf { alpha, beta, kappa });
-            self.check("UKF_a05_b2_k0", SrUkf { alpha, beta, kappa, update: Block::Joint });
+        let name = "UKF_a05_b2_k0";
+        if !self.golden["filters"][name].is_null() {
+            let settings = [("alpha", 0.5.into()), ("beta", 2.0.into()), ("kappa", 0.0.into())];
+            self.check(name, "ukf", &settings);
+            self.check(name, "sr-ukf", &settings);
         }
     }
 
@@ -141,7 +152,10 @@ impl<M: Transition, H: Observation> Scenario<M, H> {
         let truth = &self.golden["mp_CKF"];
         for (name, update) in [("SCKF2009", Block::Separate), ("SCKF2011", Block::Joint)] {
             let golden = &self.golden["filters"][name];
-            let est = self.run(SrCkf { update }, Goal::Interval);
+            let (data, prior) = self.data();
+            let run =
+                run(SrCkf { update }, &self.model, &self.sensor, data.rows(), 0.0, &prior, Goal::Interval);
+            let est = run.into_result().unwrap();
             let n = est.states();
             for (k, factor) in golden["S"].as_object().unwrap() {
                 let k: usize = k.parse().unwrap();

@@ -24,20 +24,21 @@ pub(super) fn tria_in_packs<T: Real>(a: &mut [T], rows: usize, columns: usize, s
 #[inline(never)]
 fn tria_f64(a: &mut [f64], rows: usize, columns: usize, stride: usize) -> usize {
     let packs = columns.div_ceil(LANES);
-    if packs > LONGEST || rows > TALLEST || packs * LANES > stride || a.len() < rows * stride {
+    if columns == 0 || packs > LONGEST || rows > TALLEST || packs * LANES > stride || a.len() < rows * stride
+    {
         return 0;
     }
-    NARROW.run_in_registers(Rows { a, rows, columns, stride }).unwrap_or(0)
+    NARROW.run_in_registers(Matrix { a, rows, columns, stride }).unwrap_or(0)
 }
 
-struct Rows<'a> {
+struct Matrix<'a> {
     a: &'a mut [f64],
     rows: usize,
     columns: usize,
     stride: usize,
 }
 
-impl Job<f64> for Rows<'_> {
+impl Job<f64> for Matrix<'_> {
     type Output = usize;
     const AVX512: bool = false;
     /// While a reflection goes over the rows below, it takes the products that the next one needs: each row is read once.

@@ -15,6 +15,7 @@ mod order;
 mod precision;
 mod repeated;
 mod rules;
+mod side_by_side;
 mod singular;
 mod smoothers;
 mod stepping;

@@ -23,7 +23,7 @@ pub(crate) const fn expanded_scratch(
     points: usize,
     expansion: [usize; 2],
 ) -> usize {
-    let arrays = n.saturating_mul(q).saturating_add(n).saturating_add(n);
+    let arrays = n.saturating_add(n);
     let outputs = if noise { n.saturating_mul(q).saturating_add(n) } else { n };
     let all = arrays.saturating_mul(points).saturating_add(expansion[0]);
     let one = arrays.saturating_add(expansion[1]);
@@ -35,6 +35,10 @@ impl<M: Sde> Map for Expanded<'_, M> {
     fn outputs(&self) -> usize {
         let n = self.model.states();
         n + if self.noise { n * self.model.noises() } else { 0 }
+    }
+
+    fn serves_packs(&self) -> bool {
+        self.model.serves_packs()
     }
 
     fn scratch(&self, points: usize) -> usize {
@@ -49,11 +53,11 @@ impl<M: Sde> Map for Expanded<'_, M> {
         let (next, below) = out.split_at_mut(all);
         let (here, rest) = scratch.split_at_mut(all);
         let (l0, rest) = rest.split_at_mut(all);
-        let (own, rest) = rest.split_at_mut(all * self.model.noises());
         here.copy_from_slice(x);
         for k in 0..self.times {
             let at = At { t: at.t + T::of(k as f64) * at.dt, ..*at };
-            let lf = if self.noise { &mut *below } else { &mut *own };
+            // only what stands below is wanted of Lf
+            let lf = if self.noise { &mut *below } else { &mut [] };
             self.model.expansion_points(&at, points, here, next, l0, lf, rest);
             let half = T::of(0.5) * at.dt;
             for ((f, &l0), &x) in next.iter_mut().zip(&*l0).zip(&*here) {

@@ -39,6 +39,10 @@ impl<M: Sde> Map for Flow<'_, M> {
         self.model.states() + self.entries()
     }
 
+    fn serves_packs(&self) -> bool {
+        self.model.serves_packs()
+    }
+
     fn scratch(&self, points: usize) -> usize {
         let beside = self.model.controls() + self.model.parameters().len();
         let below = self.diffusion.then(|| self.entries());

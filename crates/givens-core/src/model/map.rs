@@ -35,6 +35,10 @@ pub trait Map {
         let _ = i;
         None
     }
+    /// Whether the methods below serve packs, too.
+    fn serves_packs(&self) -> bool {
+        true
+    }
     /// Scalars of scratch that the two methods below need for `points` points.
     fn scratch(&self, points: usize) -> usize;
     /// All points at once: `x` is n × `points` and `out` d × `points`, component by component.
@@ -64,6 +68,9 @@ impl<M: Transition + ?Sized> AtPoint for Moving<'_, M> {
 impl<M: Transition> Map for Moving<'_, M> {
     fn outputs(&self) -> usize {
         self.0.states()
+    }
+    fn serves_packs(&self) -> bool {
+        self.0.serves_packs()
     }
     fn scratch(&self, points: usize) -> usize {
         self.0.transition_scratch(points)
@@ -117,6 +124,9 @@ impl<H: Observation> Map for Sensed<'_, H> {
     }
     fn angle(&self, i: usize) -> Option<f64> {
         self.0.angle(i)
+    }
+    fn serves_packs(&self) -> bool {
+        self.0.serves_packs()
     }
     fn scratch(&self, points: usize) -> usize {
         self.0.observe_scratch(points)

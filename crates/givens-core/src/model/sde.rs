@@ -67,6 +67,12 @@ pub trait Sde {
         Varies::WithTime
     }
 
+    /// Whether its functions serve packs, too: the points of a filter in `f64` then go through them side by side. A model that
+    /// asks a function of `f64` elsewhere must say no.
+    fn serves_packs(&self) -> bool {
+        true
+    }
+
     /// Scalars of scratch that the methods below need for `points` points.
     fn drift_scratch(&self, points: usize) -> usize {
         let _ = points;
@@ -95,7 +101,7 @@ pub trait Sde {
 
     /// The drift and its two Itô derivatives at all points at once, component by component (docs/algorithms.md C2, C3):
     /// f to `f` and L₀f to `l0`, n × `points`; row i q + j of `lf` is component i of Lf = J G along noise j.
-    /// 1 + q evaluations for each point.
+    /// Where `lf` is empty, Lf is not wanted. 1 + q evaluations for each point.
     #[inline(always)]
     fn expansion_points<T: Real>(
         &self,
@@ -163,7 +169,7 @@ pub fn expansion_by_duals<T: Real, M: Sde + ?Sized>(
             for i in 0..n {
                 f[i * points + k] = image[i].v;
                 l0[i * points + k] += T::of(0.5) * image[i].dd;
-                if q > 0 {
+                if q > 0 && !lf.is_empty() {
                     lf[(i * q + j) * points + k] = image[i].d;
                 }
             }

@@ -47,7 +47,7 @@ pub(crate) fn evaluate_side_by_side<T: Real, G: Map>(
     y: &mut [T],
     scratch: &mut [T],
 ) {
-    if !lanes_of_its_own::<T>() && LANES > 1 {
+    if !lanes_of_its_own::<T>() && LANES > 1 && g.serves_packs() {
         let (u, p) = (floats(at.u), floats(at.p));
         let whole = At { t: at.t.first(), dt: at.dt.first(), u, p };
         let (x, y, scratch) = (floats_mut(x), floats_mut(y), floats_mut(scratch));

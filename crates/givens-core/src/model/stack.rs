@@ -31,6 +31,9 @@ impl<A: Observation, B: Observation> Observation for (A, B) {
     fn parameters(&self) -> usize {
         self.0.parameters().max(self.1.parameters())
     }
+    fn serves_packs(&self) -> bool {
+        self.0.serves_packs() && self.1.serves_packs()
+    }
     #[inline(always)]
     fn observe<T: Real>(&self, at: &At<T>, x: &[T], out: &mut [T]) {
         let (a, b) = out.split_at_mut(self.0.measures());

@@ -69,6 +69,12 @@ pub trait Transition {
         }
     }
 
+    /// Whether its functions serve packs, too: the points of a filter in `f64` then go through them side by side. A model that
+    /// asks a function of `f64` elsewhere must say no.
+    fn serves_packs(&self) -> bool {
+        true
+    }
+
     /// Scalars of scratch that the two methods below need for `points` points.
     fn transition_scratch(&self, points: usize) -> usize {
         let (n, beside) = (self.states(), self.controls() + self.parameters().len());

@@ -12,6 +12,8 @@ const MOST_VISITS: usize = 300_000_000;
 #[derive(Clone, Debug)]
 pub(super) struct Expansion {
     program: Program,
+    /// The same without Lf.
+    still: Program,
     states: usize,
 }
 
@@ -53,16 +55,18 @@ impl Expansion {
                 return None;
             }
         }
-        let outputs = [drift, &l0, &lf].concat();
-        Some(Self { program: Program::compile(graph, &outputs).ok()?, states: n })
+        let program = Program::compile(graph, &[drift, &l0, &lf].concat()).ok()?;
+        let still = Program::compile(graph, &[drift, &l0].concat()).ok()?;
+        Some(Self { program, still, states: n })
     }
 
     /// Scalars of scratch for `points` points.
     pub fn scratch_len(&self, points: usize) -> usize {
-        self.program.outputs() * points + self.program.scratch_len(points)
+        let own = self.program.scratch_len(points).max(self.still.scratch_len(points));
+        self.program.outputs() * points + own
     }
 
-    /// All points at once, component by component.
+    /// All points at once, component by component; without Lf if it is empty.
     pub fn points<T: Real>(
         &self,
         inputs: &Inputs<'_, T>,
@@ -70,8 +74,9 @@ impl Expansion {
         [f, l0, lf]: [&mut [T]; 3],
         scratch: &mut [T],
     ) {
-        let (results, scratch) = scratch.split_at_mut(self.program.outputs() * points);
-        self.program.eval(inputs, points, results, scratch);
+        let program = if lf.is_empty() { &self.still } else { &self.program };
+        let (results, scratch) = scratch.split_at_mut(program.outputs() * points);
+        program.eval(inputs, points, results, scratch);
         let all = self.states * points;
         f[..all].copy_from_slice(&results[..all]);
         l0[..all].copy_from_slice(&results[all..2 * all]);

@@ -49,6 +49,11 @@ impl Sde for Continuous {
         &self.parameters
     }
 
+    /// A function that is called takes `f64`.
+    fn serves_packs(&self) -> bool {
+        matches!(&*self.way, Way::Traced(_))
+    }
+
     fn drift<T: Real>(&self, at: &At<T>, x: &[T], dx: &mut [T]) {
         if !self.goes_on() {
             return dx.fill(T::of(f64::NAN));

@@ -48,6 +48,11 @@ impl Transition for Discrete {
         &self.parameters
     }
 
+    /// A function that is called takes `f64`.
+    fn serves_packs(&self) -> bool {
+        matches!(&*self.way, Way::Traced(_))
+    }
+
     fn transition<T: Real>(&self, at: &At<T>, x: &[T], out: &mut [T]) {
         if !self.goes_on() {
             return out.fill(T::of(f64::NAN));

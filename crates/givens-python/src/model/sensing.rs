@@ -101,6 +101,11 @@ impl Observation for Sensing {
         }
     }
 
+    /// A function that is called takes `f64`.
+    fn serves_packs(&self) -> bool {
+        matches!(&*self.0, Way::Traced(_))
+    }
+
     fn observe<T: Real>(&self, at: &At<T>, x: &[T], out: &mut [T]) {
         match &*self.0 {
             Way::Traced(model) => model.observe(at, x, out),

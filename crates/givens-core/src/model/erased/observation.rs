@@ -34,6 +34,7 @@ behind_a_pointer! {
         fn states() -> usize;
         fn measures() -> usize;
         fn angle(i: usize) -> Option<f64>;
+        fn serves_packs() -> bool;
         fn controls() -> usize;
         fn parameters() -> usize;
         fn noise() -> Noise;

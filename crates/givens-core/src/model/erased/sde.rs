@@ -38,6 +38,7 @@ behind_a_pointer! {
     passing {
         fn states() -> usize;
         fn noises() -> usize;
+        fn serves_packs() -> bool;
         fn controls() -> usize;
         fn parameters() -> &[f64];
         fn diffusion_varies() -> Varies;

@@ -33,6 +33,7 @@ behind_a_pointer! {
     passing {
         fn states() -> usize;
         fn period() -> Option<f64>;
+        fn serves_packs() -> bool;
         fn controls() -> usize;
         fn parameters() -> &[f64];
         fn noise() -> Noise;

@@ -17,9 +17,7 @@ where
     M: 'static,
     H: Observation + 'static,
 {
-    let sets = [InstructionSet::Avx2, InstructionSet::Neon];
-    let set = sets.into_iter().find(|set| set.available()).ok_or("this machine has no packs")?;
-    let width = set.run_in_registers::<E, _>(Width).map_err(|_| "no packs")?;
+    let (set, width) = vectors::<E>()?;
     let mut told = Rows::every(if problem.tracks() == 1 { problem.every } else { 1 });
     let copies = if problem.tracks() == 1 { width } else { 1 };
     set.run_in_registers(Packed::<E, _, _, _> { problem: &problem, told: Some(&mut told), of: PhantomData })
@@ -35,7 +33,13 @@ where
     })
 }
 
-/// How many lanes.
+/// The vectors that batches use, and how many lanes they have.
+pub fn vectors<E: Element>() -> Result<(InstructionSet, usize), Failure> {
+    let sets = [InstructionSet::Avx2, InstructionSet::Neon];
+    let set = sets.into_iter().find(|set| set.available()).ok_or("this machine has no packs")?;
+    Ok((set, set.run_in_registers::<E, _>(Width).map_err(|_| "no packs")?))
+}
+
 struct Width;
 
 impl<E: Element> Job<E> for Width {

@@ -1,11 +1,10 @@
-//! W1: one trajectory of 1000 steps; W2: 1000 of 100.
+//! W1: one trajectory of 1000 steps; W2: 1000 of 100; W4: one, smoothed.
 
 use super::unknown;
-use crate::Offer;
 use crate::models::{PlaneRadar, PlaneTurn};
 use crate::problem::{Problem, prior};
-use crate::{packs, single};
-use givens_contest::{Failure, Inputs, Table};
+use crate::{batch, packs, single, smooth};
+use givens_contest::{Entry, Failure, Inputs, Table};
 use givens_core::filter::{Ckf, SrCkf};
 
 type Plane<X> = Problem<X, PlaneTurn, PlaneRadar>;
@@ -16,21 +15,32 @@ fn problem<X>(method: X, rows: Table, steps: usize, every: usize) -> Result<Plan
     Ok(Problem { method, model: PlaneTurn, sensor: PlaneRadar, prior, dt: 1.0, rows, steps, every })
 }
 
-pub fn one(contestant: &str, inputs: &Inputs) -> Result<Offer, Failure> {
+pub fn one(contestant: &str, inputs: &Inputs) -> Result<Entry<'static>, Failure> {
     let rows = inputs.csv("plane")?;
-    Ok(Offer::Runs(match contestant {
+    Ok(match contestant {
         "sr-ckf" => single::entry(problem(SrCkf::default(), rows, 1000, 10)?)?,
         "ckf" => single::entry(problem(Ckf::default(), rows, 1000, 10)?)?,
         _ => return unknown(contestant),
-    }))
+    })
 }
 
-pub fn many(contestant: &str, inputs: &Inputs) -> Result<Offer, Failure> {
+pub fn many(contestant: &str, inputs: &Inputs) -> Result<Entry<'static>, Failure> {
     let rows = inputs.f32("plane_tracks", 2)?;
-    Ok(Offer::Runs(match contestant {
+    Ok(match contestant {
         "sr-ckf" => single::entry(problem(SrCkf::default(), rows, 100, 100)?)?,
         "sr-ckf packs" => packs::entry::<f64, _, _, _>(problem(SrCkf::default(), rows, 100, 100)?)?,
+        "sr-ckf batch" => batch::entry(problem(SrCkf::default(), rows, 100, 100)?)?,
         "sr-ckf packs f32" => packs::entry::<f32, _, _, _>(problem(SrCkf::default(), rows, 100, 100)?)?,
         _ => return unknown(contestant),
-    }))
+    })
+}
+
+pub fn smoothed(contestant: &str, inputs: &Inputs) -> Result<Entry<'static>, Failure> {
+    let rows = inputs.csv("plane")?;
+    Ok(match contestant {
+        "sr-ckf" => smooth::entry(problem(SrCkf::default(), rows, 1000, 10)?)?,
+        "ckf" => smooth::entry(problem(Ckf::default(), rows, 1000, 10)?)?,
+        "sr-ckf packs" => smooth::packed::<f64, _, _, _>(problem(SrCkf::default(), rows, 1000, 10)?)?,
+        _ => return unknown(contestant),
+    })
 }

@@ -16,7 +16,7 @@ pub use rows::Rows;
 use std::io::{BufRead, Write, stdin, stdout};
 
 /// Anything that may go wrong in a contestant; the runner shows it.
-pub type Failure = Box<dyn std::error::Error>;
+pub type Failure = Box<dyn core::error::Error>;
 
 /// A contestant that is ready to run.
 pub struct Entry<'a> {
@@ -69,4 +69,13 @@ pub fn called_with() -> Result<(String, String, Inputs), Failure> {
         Ok([contestant, workload, folder]) => Ok((contestant, workload, Inputs::in_folder(&folder))),
         Err(_) => Err("usage: CONTESTANT WORKLOAD INPUTS".into()),
     }
+}
+
+/// One repetition, in a function of its own by which an instruction counter knows what to count.
+///
+/// # Errors
+/// A repetition that fails.
+#[inline(never)]
+pub fn counted_repetition(entry: &mut Entry) -> Result<f64, Failure> {
+    (entry.go)()
 }

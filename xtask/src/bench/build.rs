@@ -99,7 +99,7 @@ fn environment(root: &Path, environments: &Path, name: &str) -> Result<(), Strin
         done(Command::new("python3").args(["-m", "venv"]).arg(&folder), "a Python environment")?;
     }
     let mut install = Command::new(interpreter);
-    install.args(["-m", "pip", "install", "--quiet", "--requirement"]).arg(&requirements);
+    install.current_dir(root).args(["-m", "pip", "install", "--quiet", "--requirement"]).arg(&requirements);
     done(&mut install, &format!("installing {}", requirements.display()))
 }
 
@@ -121,9 +121,9 @@ impl Built {
         self.python.clone()?;
         let interpreter = self.environments.join(&contestant.environment).join("bin/python");
         if !interpreter.exists() {
+            let name = &contestant.environment;
             return Err(format!(
-                "there is no environment {}: `cargo xtask bench --prepare` makes it, with network",
-                interpreter.display()
+                "its environment `{name}` is not there; `cargo xtask bench --prepare` makes it, with network"
             ));
         }
         let mut command = Command::new(interpreter);

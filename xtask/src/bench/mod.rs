@@ -66,7 +66,7 @@ fn measured(root: &Path, words: &[&str]) -> Result<(), String> {
         race.standings = runner.race(running, &mut race.absent);
         races.push(race);
     }
-    let page = report::page(&table, &races, root, &options, before);
+    let page = report::page(&table, &races, root, &options, &before);
     let out = options.out.clone().map_or_else(|| root.join("docs/benchmarks.md"), PathBuf::from);
     std::fs::write(&out, page).map_err(|error| format!("{}: {error}", out.display()))?;
     let samples = target.join("benchmarks/samples.csv");

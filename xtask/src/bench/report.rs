@@ -9,7 +9,7 @@ use core::fmt::Write;
 use std::path::Path;
 
 /// `docs/benchmarks.md`.
-pub fn page(table: &Table, races: &[Race], root: &Path, options: &Options, before: String) -> String {
+pub fn page(table: &Table, races: &[Race], root: &Path, options: &Options, before: &str) -> String {
     let mut page = String::from(include_str!("head.md"));
     let line = |program: &str, words: &[&str]| machine::line_of(program, words, root);
     let revision = line("git", &["describe", "--always", "--dirty"]);

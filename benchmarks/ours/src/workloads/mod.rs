@@ -4,6 +4,7 @@ mod circle;
 mod plane;
 mod space;
 
+use crate::kernels;
 use givens_contest::{Entry, Failure, Inputs};
 
 /// What a contestant has for a workload.
@@ -14,6 +15,7 @@ pub fn offer(contestant: &str, workload: &str, inputs: &Inputs) -> Result<Entry<
         "W3a" => space::moments(contestant, inputs),
         "W3b" => space::discrete(contestant, inputs),
         "W4" => plane::smoothed(contestant, inputs),
+        "kernel" => kernels::offer(contestant),
         "P1" => space::ito_taylor(contestant, inputs),
         "P2" => space::updates(contestant, inputs),
         _ => match workload.strip_prefix("W5-") {

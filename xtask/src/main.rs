@@ -4,6 +4,7 @@
 mod bench;
 mod ci;
 mod finding;
+mod instructions;
 mod reproduction;
 mod rust_text;
 mod step;
@@ -20,7 +21,9 @@ const USAGE: &str = "usage:
   cargo xtask reproduction PAGES
                       puts the index of a folder that `givens reproduce` wrote into docs/reproduction.md
   cargo xtask bench [OPTIONS]
-                      givens and its peers on fixed workloads, into docs/benchmarks.md";
+                      givens and its peers on fixed workloads, into docs/benchmarks.md
+  cargo xtask instructions [--bless]
+                      counts the instructions of fixed work under valgrind, against benchmarks/instructions.toml";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -30,6 +33,8 @@ fn main() -> ExitCode {
         ["ci"] => ci::run(&root()),
         ["reproduction", pages] => reproduction::run(&root(), Path::new(pages)),
         ["bench", options @ ..] => bench::run(&root(), options),
+        ["instructions"] => instructions::run(&root(), false),
+        ["instructions", "--bless"] => instructions::run(&root(), true),
         _ => {
             say(USAGE);
             return ExitCode::from(2);

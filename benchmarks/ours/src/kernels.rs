@@ -57,14 +57,18 @@ impl Job<f64> for Work {
     #[inline(always)]
     fn run<P: Pack<Element = f64>>(self) -> f64 {
         let Self { kernel, rows, columns } = self;
-        // of a sweep: [S_R; Z] above S, d = rows, n = columns; see kernels::sweep
+        // of a sweep, rows is d and columns n
         let (height, width) = match kernel {
             Kernel::Sweep => (rows + columns, rows + columns),
             _ => (rows, columns),
         };
         let entry = |k: usize| {
             let (i, j) = (k / width, k % width);
-            P::of(if i == j { 4.0 + i as f64 } else { ((k * 37) % 11) as f64 / 11.0 })
+            // a sweep starts from [L D; 0 S], L and S lower triangular
+            let empty = matches!(kernel, Kernel::Sweep)
+                && (i >= rows && j < rows || j > i && (j < rows || i >= rows));
+            let inside = if empty { 0.0 } else { ((k * 37) % 11) as f64 / 11.0 };
+            P::of(if i == j { 4.0 + i as f64 } else { inside })
         };
         let start: Vec<P> = (0..height * width).map(entry).collect();
         let (mut a, mut scratch) = (start.clone(), vec![P::zero(); 4 * width]);

@@ -22,7 +22,7 @@ pub fn all(root: &Path, target: &Path, options: &Options) -> Built {
     let left_out = || Err("left out (--no-peers)".to_owned());
     let built = Built {
         root: root.to_owned(),
-        ours: rust(root, target, "givens-benchmarks"),
+        ours: ours(root, target),
         peers: if options.peers { peers(root, &environments) } else { left_out() },
         cpp: if options.peers { cpp(root, &environments) } else { left_out() },
         python: if options.python { Ok(()) } else { Err("left out (--no-python)".to_owned()) },
@@ -49,8 +49,9 @@ fn done(command: &mut Command, what: &str) -> Result<(), String> {
     }
 }
 
-fn rust(root: &Path, target: &Path, package: &str) -> Result<PathBuf, String> {
-    let mut build = cargo();
+/// givens, in its release profile.
+pub fn ours(root: &Path, target: &Path) -> Result<PathBuf, String> {
+    let (package, mut build) = ("givens-benchmarks", cargo());
     build.current_dir(root).args(["build", "--release", "--quiet", "--package", package]);
     done(&mut build, "building givens")?;
     Ok(target.join("release").join(package))

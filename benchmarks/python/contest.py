@@ -19,7 +19,7 @@ def rows(name: str) -> np.ndarray:
 
 def tracks() -> np.ndarray:
     """W2's, 1000 x 100 x 2."""
-    return np.fromfile(Path(INPUTS) / "plane_tracks.f32", "<f4").reshape(1000, 100, 2).astype(float)
+    return np.fromfile(Path(INPUTS) / "plane_tracks.f32", "<f4").reshape(-1, 100, 2).astype(float)
 
 
 def report(means: np.ndarray, covs: np.ndarray, every: int) -> np.ndarray:

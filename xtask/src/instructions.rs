@@ -87,9 +87,8 @@ fn read(text: &str) -> Result<(String, Vec<Row>), String> {
 
 /// The table again, its head as it was.
 fn table(old: &str, compiler: &str, rows: &[Row], counts: &[u64]) -> String {
-    let head: String =
-        old.lines().take_while(|line| line.starts_with('#')).map(|line| format!("{line}\n")).collect();
-    let mut text = format!("{head}compiler = \"{compiler}\"\n\n[instructions]\n");
+    let head: Vec<&str> = old.lines().take_while(|line| line.starts_with('#')).collect();
+    let mut text = format!("{}\ncompiler = \"{compiler}\"\n\n[instructions]\n", head.join("\n"));
     for (row, count) in rows.iter().zip(counts) {
         let _ = writeln!(text, "\"{} {}\" = {count}", row.workload, row.contestant);
     }

@@ -1,8 +1,10 @@
 //! The project's chores: `cargo xtask tidy` checks what the compiler does not, `cargo xtask ci` runs all that CI runs,
 //! `cargo xtask reproduction` puts the papers' tables into their page.
 
+mod bench;
 mod ci;
 mod finding;
+mod instructions;
 mod reproduction;
 mod rust_text;
 mod step;
@@ -17,7 +19,11 @@ const USAGE: &str = "usage:
   cargo xtask tidy    check order of modules and crates, lengths, citations, the registry and the README
   cargo xtask ci      everything that CI runs: format, tidy, lints, documentation, builds, tests
   cargo xtask reproduction PAGES
-                      puts the index of a folder that `givens reproduce` wrote into docs/reproduction.md";
+                      puts the index of a folder that `givens reproduce` wrote into docs/reproduction.md
+  cargo xtask bench [OPTIONS]
+                      givens and its peers on fixed workloads, into docs/benchmarks.md
+  cargo xtask instructions [--bless]
+                      counts the instructions of fixed work under valgrind, against benchmarks/instructions.toml";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -26,6 +32,9 @@ fn main() -> ExitCode {
         ["tidy"] => tidy::run(&root()),
         ["ci"] => ci::run(&root()),
         ["reproduction", pages] => reproduction::run(&root(), Path::new(pages)),
+        ["bench", options @ ..] => bench::run(&root(), options),
+        ["instructions"] => instructions::run(&root(), false),
+        ["instructions", "--bless"] => instructions::run(&root(), true),
         _ => {
             say(USAGE);
             return ExitCode::from(2);

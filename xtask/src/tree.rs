@@ -44,7 +44,7 @@ pub struct Tree {
 }
 
 /// Folders that hold what the project wrote; the others are built or borrowed.
-const FOLDERS: &[&str] = &["benches", "crates", "docs", "examples", "tests", "xtask"];
+const FOLDERS: &[&str] = &["benchmarks", "crates", "docs", "examples", "tests", "xtask"];
 /// What checks read.
 const ENDINGS: &[&str] = &["rs", "md", "toml"];
 

@@ -1,0 +1,30 @@
+//! givens as a contestant: `givens-benchmarks CONTESTANT WORKLOAD INPUTS`, as `givens_contest` says.
+
+mod batch;
+mod kernels;
+mod models;
+mod packs;
+mod problem;
+mod single;
+mod smooth;
+mod workloads;
+
+use givens_contest::{Failure, called_with, counted_repetition, serve};
+
+/// This is what is measured: the version in the manifest; the runner adds the revision.
+const VERSION: &str = concat!("givens ", env!("CARGO_PKG_VERSION"));
+
+fn main() -> Result<(), Failure> {
+    let (contestant, workload, inputs) = called_with()?;
+    // `cargo xtask instructions` asks for one repetition
+    let (contestant, once) = match contestant.strip_prefix("count ") {
+        Some(contestant) => (contestant.to_owned(), true),
+        None => (contestant, false),
+    };
+    let mut entry = workloads::offer(&contestant, &workload, &inputs)?;
+    if once {
+        core::hint::black_box(counted_repetition(&mut entry)?);
+        return Ok(());
+    }
+    serve(entry)
+}

@@ -1,0 +1,86 @@
+//! W5: Lorenz-96, one step of the classic Runge–Kutta method; every other component is measured.
+
+use givens_core::model::{At, Noise, Observation, Transition};
+use givens_core::scalar::Real;
+
+/// With this many states.
+pub struct Circle(pub usize);
+
+/// More than any workload has.
+const MOST: usize = 256;
+
+#[inline(always)]
+fn drift<T: Real>(x: &[T], dx: &mut [T]) {
+    let (n, forcing) = (x.len(), T::of(8.0));
+    dx[0] = (x[1] - x[n - 2]) * x[n - 1] - x[0] + forcing;
+    dx[1] = (x[2] - x[n - 1]) * x[0] - x[1] + forcing;
+    dx[n - 1] = (x[0] - x[n - 3]) * x[n - 2] - x[n - 1] + forcing;
+    for (dx, x) in dx[2..n - 1].iter_mut().zip(x.windows(4)) {
+        *dx = (x[3] - x[0]) * x[1] - x[2] + forcing;
+    }
+}
+
+impl Transition for Circle {
+    fn states(&self) -> usize {
+        self.0
+    }
+
+    #[inline(always)]
+    fn transition<T: Real>(&self, at: &At<T>, x: &[T], out: &mut [T]) {
+        let n = x.len();
+        let (mut k, mut y) = ([T::zero(); MOST], [T::zero(); MOST]);
+        let (k, y) = (&mut k[..n], &mut y[..n]);
+        out.copy_from_slice(x);
+        y.copy_from_slice(x);
+        for (weight, ahead) in [(1.0, 0.5), (2.0, 0.5), (2.0, 1.0), (1.0, 0.0)] {
+            let (weight, ahead) = (T::of(weight / 6.0) * at.dt, T::of(ahead) * at.dt);
+            drift(y, k);
+            for i in 0..n {
+                out[i] = weight.mul_add(k[i], out[i]);
+                y[i] = ahead.mul_add(k[i], x[i]);
+            }
+        }
+    }
+
+    fn noise(&self) -> Noise {
+        Noise::Root(self.0)
+    }
+
+    #[inline(always)]
+    fn process_noise<T: Real>(&self, _: &At<T>, out: &mut [T]) {
+        diagonal(self.0, 0.05_f64.sqrt(), out);
+    }
+}
+
+/// It, seen.
+pub struct Every(pub usize);
+
+impl Observation for Every {
+    fn states(&self) -> usize {
+        self.0
+    }
+
+    fn measures(&self) -> usize {
+        self.0 / 2
+    }
+
+    #[inline(always)]
+    fn observe<T: Real>(&self, _: &At<T>, x: &[T], z: &mut [T]) {
+        z.iter_mut().zip(x.iter().step_by(2)).for_each(|(z, &x)| *z = x);
+    }
+
+    fn noise(&self) -> Noise {
+        Noise::Root(self.0 / 2)
+    }
+
+    #[inline(always)]
+    fn measurement_noise<T: Real>(&self, _: &At<T>, out: &mut [T]) {
+        diagonal(self.0 / 2, 1.0, out);
+    }
+}
+
+#[inline(always)]
+fn diagonal<T: Real>(n: usize, value: f64, out: &mut [T]) {
+    out.fill(T::zero());
+    out.iter_mut().step_by(n + 1).for_each(|out| *out = T::of(value));
+}

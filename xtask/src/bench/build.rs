@@ -1,0 +1,140 @@
+//! The contestants' programs: built here, or found missing with a word on how to make them.
+
+use super::options::Options;
+use super::table::Contestant;
+use crate::say;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// Where the programs are; for each that is not there, why.
+pub struct Built {
+    root: PathBuf,
+    environments: PathBuf,
+    ours: Result<PathBuf, String>,
+    peers: Result<PathBuf, String>,
+    cpp: Result<PathBuf, String>,
+    python: Result<(), String>,
+}
+
+/// Builds what the options want.
+pub fn all(root: &Path, target: &Path, options: &Options) -> Built {
+    let environments = target.join("benchmarks");
+    let left_out = || Err("left out (--no-peers)".to_owned());
+    let built = Built {
+        root: root.to_owned(),
+        ours: ours(root, target),
+        peers: if options.peers { peers(root, &environments) } else { left_out() },
+        cpp: if options.peers { cpp(root, &environments) } else { left_out() },
+        python: if options.python { Ok(()) } else { Err("left out (--no-python)".to_owned()) },
+        environments,
+    };
+    if options.prepare && options.python {
+        for name in environments_of(root) {
+            environment(root, &built.environments, &name).unwrap_or_else(|reason| say(&reason));
+        }
+    }
+    built
+}
+
+fn cargo() -> Command {
+    Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
+}
+
+/// Runs a command; in words why it failed.
+fn done(command: &mut Command, what: &str) -> Result<(), String> {
+    match command.status() {
+        Ok(status) if status.success() => Ok(()),
+        Ok(status) => Err(format!("{what} failed: {status}")),
+        Err(error) => Err(format!("{what}: {} cannot be run: {error}", command.get_program().display())),
+    }
+}
+
+/// givens, in its release profile.
+pub fn ours(root: &Path, target: &Path) -> Result<PathBuf, String> {
+    let (package, mut build) = ("givens-benchmarks", cargo());
+    build.current_dir(root).args(["build", "--release", "--quiet", "--package", package]);
+    done(&mut build, "building givens")?;
+    Ok(target.join("release").join(package))
+}
+
+/// The peers are a workspace of their own, built for this very machine.
+fn peers(root: &Path, environments: &Path) -> Result<PathBuf, String> {
+    let target = environments.join("peers");
+    let mut build = cargo();
+    build.current_dir(root.join("benchmarks/peers")).args(["build", "--release", "--quiet", "--locked"]);
+    build.env("CARGO_TARGET_DIR", &target);
+    done(&mut build, "building the Rust peers")?;
+    Ok(target.join("release/peers"))
+}
+
+/// The filters in C++, one program, compiled again when one of its files is newer.
+fn cpp(root: &Path, environments: &Path) -> Result<PathBuf, String> {
+    let (sources, program) = (root.join("benchmarks/cpp"), environments.join("cpp"));
+    let changed = |path: &Path| path.metadata().and_then(|data| data.modified()).ok();
+    let files = std::fs::read_dir(&sources).map_err(|error| format!("{}: {error}", sources.display()))?;
+    let newest = files.flatten().filter_map(|file| changed(&file.path())).max();
+    if changed(&program) >= newest {
+        return Ok(program);
+    }
+    std::fs::create_dir_all(environments).map_err(|error| error.to_string())?;
+    let mut build = Command::new(std::env::var_os("CXX").unwrap_or_else(|| "c++".into()));
+    build.args(["-std=c++17", "-O3", "-march=native", "-DNDEBUG", "-fno-math-errno"]);
+    build.args(["-isystem", "/usr/include/eigen3", "-o"]).arg(&program).arg(sources.join("main.cpp"));
+    done(&mut build, "compiling the C++ filters (a C++ compiler and Eigen 3.4, libeigen3-dev)")?;
+    Ok(program)
+}
+
+/// Every environment has its requirements beside the scripts.
+fn environments_of(root: &Path) -> Vec<String> {
+    let files = std::fs::read_dir(root.join("benchmarks/python")).into_iter().flatten().flatten();
+    let names = files.map(|file| file.file_name().to_string_lossy().into_owned());
+    names.filter_map(|name| name.strip_suffix(".txt").map(str::to_owned)).collect()
+}
+
+/// Makes an environment and installs its requirements.
+fn environment(root: &Path, environments: &Path, name: &str) -> Result<(), String> {
+    let folder = environments.join(name);
+    let requirements = root.join("benchmarks/python").join(format!("{name}.txt"));
+    let interpreter = folder.join("bin/python");
+    if !interpreter.exists() {
+        done(Command::new("python3").args(["-m", "venv"]).arg(&folder), "a Python environment")?;
+    }
+    let mut install = Command::new(interpreter);
+    install.current_dir(root).args(["-m", "pip", "install", "--quiet", "--requirement"]).arg(&requirements);
+    done(&mut install, &format!("installing {}", requirements.display()))
+}
+
+impl Built {
+    /// How a contestant is started, without the workload.
+    pub fn command(&self, contestant: &Contestant) -> Result<Command, String> {
+        let program = match contestant.program.as_str() {
+            "ours" => &self.ours,
+            "peers" => &self.peers,
+            "cpp" => &self.cpp,
+            script => return self.script(script, contestant),
+        };
+        let mut command = Command::new(program.as_ref().map_err(String::clone)?);
+        command.arg(&contestant.word);
+        Ok(command)
+    }
+
+    fn script(&self, script: &str, contestant: &Contestant) -> Result<Command, String> {
+        self.python.clone()?;
+        let interpreter = self.environments.join(&contestant.environment).join("bin/python");
+        if !interpreter.exists() {
+            let name = &contestant.environment;
+            return Err(format!(
+                "its environment `{name}` is not there; `cargo xtask bench --prepare` makes it, with network"
+            ));
+        }
+        let mut command = Command::new(interpreter);
+        command.arg(self.root.join("benchmarks/python").join(script)).arg(&contestant.word);
+        // one thread, as the others
+        for threads in ["OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS"] {
+            command.env(threads, "1");
+        }
+        command.env("XLA_FLAGS", "--xla_cpu_multi_thread_eigen=false intra_op_parallelism_threads=1");
+        command.env("JAX_PLATFORMS", "cpu").env("PYTHONDONTWRITEBYTECODE", "1");
+        Ok(command)
+    }
+}

@@ -1,0 +1,122 @@
+//! What a race says: its table, and who won.
+
+use super::Race;
+use super::report::cpu;
+use super::rounds::Standing;
+use super::spread::Spread;
+use super::table::Contestant;
+use core::fmt::Write;
+
+/// A standing with its spread.
+struct Ranked<'r> {
+    standing: &'r Standing<'r>,
+    cpu: Spread,
+}
+
+fn ranked<'r>(race: &'r Race) -> Vec<Ranked<'r>> {
+    let with = |standing: &'r Standing<'r>| cpu(standing).map(|cpu| Ranked { standing, cpu });
+    let mut all: Vec<Ranked> = race.standings.iter().filter_map(with).collect();
+    all.sort_by(|a, b| a.cpu.median.total_cmp(&b.cpu.median));
+    all
+}
+
+/// The fastest of these that computes what was asked for, in double precision.
+fn best<'r>(all: &'r [Ranked<'r>], wanted: impl Fn(&Contestant) -> bool) -> Option<&'r Ranked<'r>> {
+    all.iter().find(|one| {
+        let contestant = one.standing.contestant;
+        one.standing.agrees && contestant.class != "f32" && wanted(contestant)
+    })
+}
+
+/// One line for each workload.
+pub fn lines(races: &[Race]) -> String {
+    let mut text = String::from(
+        "| workload | best of the others | givens, one filter | | givens, packs | |\n|---|---|---|---|---|---|\n",
+    );
+    for race in races {
+        let all = ranked(race);
+        let theirs = best(&all, |one| !one.ours);
+        let named = |one: &Ranked| format!("{} ({})", time(one.cpu.median), one.standing.contestant.name);
+        let _ = write!(text, "| {} | {} |", race.workload.name, theirs.map_or("–".to_owned(), named));
+        for class in ["", "packs"] {
+            let ours = best(&all, |one| one.ours && one.class == class);
+            let _ = match ours {
+                None => write!(text, " | |"),
+                Some(ours) => {
+                    let ratio = theirs.map(|theirs| theirs.cpu.median / ours.cpu.median);
+                    write!(text, " {} | {} |", named(ours), ratio.map_or(String::new(), verdict))
+                }
+            };
+        }
+        text.push('\n');
+    }
+    text + "\nHow many times faster than the best of the others; within 1.4 there is nothing in it. Single precision is left out here.\n"
+}
+
+/// A ratio, and what it says.
+fn verdict(ratio: f64) -> String {
+    let word = match ratio {
+        ratio if ratio < 1.0 / 1.4 => " (a peer wins)",
+        ratio if ratio < 1.4 => " (even)",
+        _ => "",
+    };
+    format!("**{ratio:.2}**{word}")
+}
+
+/// The table of a workload, the fastest first; below it, who was absent.
+pub fn table(race: &Race) -> String {
+    let mut text = String::from(
+        "| contestant | median | least | quartiles | × best peer | × best of givens | from the reference | rounds |\n|---|---|---|---|---|---|---|---|\n",
+    );
+    let all = ranked(race);
+    for one in &all {
+        let Ranked { standing, cpu } = one;
+        let times = |ours: bool| {
+            best(&all, |one| one.ours == ours)
+                .map_or("–".to_owned(), |best| format!("{:.2}", cpu.median / best.cpu.median))
+        };
+        let mark = if standing.agrees { "" } else { " **≠**" };
+        let bold = if standing.contestant.ours { "**" } else { "" };
+        let _ = writeln!(
+            text,
+            "| {bold}{}{bold} | {} | {} | {} – {} | {} | {} | {:.0e} σ{mark} | {} |",
+            standing.contestant.name,
+            time(cpu.median),
+            time(cpu.least),
+            time(cpu.lower),
+            time(cpu.upper),
+            times(false),
+            times(true),
+            standing.distance.worst(),
+            standing.samples.len()
+        );
+    }
+    for (contestant, reason) in &race.absent {
+        let _ = writeln!(text, "\n{}: {reason}.", contestant.name);
+    }
+    text
+}
+
+/// Nanoseconds, in a unit that suits.
+fn time(ns: f64) -> String {
+    let (value, unit) = match ns {
+        ns if ns < 1e3 => return format!("{ns:.0} ns"),
+        ns if ns < 1e6 => (ns / 1e3, "µs"),
+        ns => (ns / 1e6, "ms"),
+    };
+    let digits = 2_usize.saturating_sub(value.log10().floor().max(0.0) as usize);
+    format!("{value:.digits$} {unit}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::time;
+
+    #[test]
+    fn times_have_three_digits() {
+        assert_eq!(time(123.4), "123 ns");
+        assert_eq!(time(1234.0), "1.23 µs");
+        assert_eq!(time(45_670.0), "45.7 µs");
+        assert_eq!(time(1.234e8), "123 ms");
+    }
+}

@@ -10,7 +10,7 @@ use std::time::Instant;
 /// build, tests and the wheel share their build.
 const STEPS: &[Step] = &[
     Step::cargo("format", "fmt --all --check"),
-    Step::cargo("lints", "clippy --workspace --all-targets -- -D warnings"),
+    Step::cargo("lints", "clippy --workspace --all-targets --features givens-tests/reports -- -D warnings"),
     Step::cargo("documentation", "doc --workspace --no-deps").with_env(&[("RUSTDOCFLAGS", "-D warnings")]),
     Step::cargo("givens-core without std", "build -p givens-core --no-default-features"),
     Step::cargo("build", "test --workspace --no-run"),

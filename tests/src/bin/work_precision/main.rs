@@ -1,6 +1,6 @@
 //! Measures what an answer of a given precision costs: the tables of `docs/work-precision.md` to stdout, its figures into a folder.
 //!
-//! `cargo run --release -p givens-tests --bin work_precision -- docs/images`
+//! `cargo run --release -p givens-tests --features reports --bin work_precision -- docs/images`
 
 mod drawing;
 mod predict;

@@ -72,6 +72,9 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
     pub(super) fn stand_still(&mut self) {
         let n = self.layout.sizes.states;
         self.forget_learnt();
+        if !self.layout.smoothing {
+            return;
+        }
         let total = self.parts().total;
         total.conditional.fill(T::zero());
         for (i, g) in total.gain.iter_mut().enumerate() {
@@ -82,9 +85,11 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
     /// Forgets what the updates since the last prediction have learnt, once it is written down.
     #[inline(always)]
     pub(crate) fn forget_learnt(&mut self) {
-        let n = self.layout.sizes.states;
-        self.parts().learnt.reset(n);
         self.moves += 1;
+        if self.layout.smoothing {
+            let n = self.layout.sizes.states;
+            self.parts().learnt.reset(n);
+        }
     }
 
     /// One step of `dt` from `t`, both also lane by lane; the lanes in which it was not done.

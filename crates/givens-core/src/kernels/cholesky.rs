@@ -62,12 +62,15 @@ fn factorise<T: Real>(a: &mut [T], n: usize, rounding: f64, scale: impl Fn(usize
         health.note(!nothing & !zero.lt(pivot), j);
         let root = T::select(nothing, zero, pivot.sqrt());
         let inverse = T::select(nothing, zero, root.recip());
+        let vanishes = nothing.any();
         for (i, below) in tail.chunks_exact_mut(n).take(n - j - 1).enumerate() {
             let rest = less_dot(below[j], &row[..j], below);
-            // |P_ij|² ≤ P_ii P_jj: a zero pivot forces a zero column, to the rounding of both
-            let own = below[j + 1 + i];
-            let bound = (rounding.abs() * (own.abs() + scale(j + 1 + i, own).abs())).sqrt();
-            health.note(nothing & !rest.abs().le(bound), j);
+            if vanishes {
+                // |P_ij|² ≤ P_ii P_jj: a zero pivot forces a zero column, to the rounding of both
+                let own = below[j + 1 + i];
+                let bound = (rounding.abs() * (own.abs() + scale(j + 1 + i, own).abs())).sqrt();
+                health.note(nothing & !rest.abs().le(bound), j);
+            }
             below[j] = rest * inverse;
         }
         row[j] = root;

@@ -15,8 +15,10 @@ _ROUNDING = 64 * np.finfo(float).eps
 
 
 def first_asymmetry(cov: Array) -> tuple[int, int] | None:
-    """The first pair of entries that differ by more than rounding can explain."""
-    room = 16 * np.finfo(float).eps * np.maximum(np.abs(cov), np.abs(cov.T))
+    """The first pair of entries that differ by more than the rounding of products of matrices."""
+    variances = np.abs(np.diagonal(cov))
+    size = np.maximum(np.maximum(np.abs(cov), np.abs(cov.T)), np.sqrt(np.outer(variances, variances)))
+    room = 4096 * np.finfo(float).eps * size
     apart = np.argwhere(np.abs(cov - cov.T) > room)
     return (int(apart[0][0]), int(apart[0][1])) if len(apart) else None
 

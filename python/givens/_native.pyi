@@ -397,6 +397,10 @@ class Estimates:
         """(K,), of each row's own measurement."""
 
     @property
+    def total_log_likelihood(self) -> float:
+        """Of all measurements that were taken in, also of those whose row gives no estimate."""
+
+    @property
     def smoothed(self) -> bool: ...
     @property
     def at(self) -> Estimates | None:

@@ -28,7 +28,7 @@ from givens.errors import InputError
 from givens.gaussian import Gaussian
 from givens.model_file import ModelFile
 
-__all__ = ["Goal", "Track", "plan", "read_prior", "with_parameters"]
+__all__ = ["Goal", "Track", "plan", "read_prior", "refuse_at", "with_parameters"]
 
 
 @dataclass(frozen=True)
@@ -41,6 +41,16 @@ class Goal:
     def rows(self, time: Array) -> int:
         """How many rows a run over these times has if it does not fail."""
         return len(time) if self.value is None or self.word != "point" else int(np.sum(time >= self.value))
+
+
+def refuse_at(goal: Goal) -> None:
+    """Other times are those of a filter, or of a smoother over all rows."""
+    if goal.word in ("lag", "point"):
+        raise InputError(
+            f"`at` and `{goal.word}` at once",
+            argument="at",
+            remedy=f"leave `{goal.word}` out: a smoother over all rows, and a filter, give the states at other times",
+        )
 
 
 @dataclass(frozen=True)

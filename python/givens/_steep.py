@@ -18,7 +18,7 @@ from givens.errors import TraceError
 __all__ = ["Derivatives", "refuse_steep_paths"]
 
 #: Different points of one call at which derivatives are compared.
-_MOST = 16
+_MOST = 64
 
 
 @dataclass

@@ -13,7 +13,7 @@ from givens._arrays import Array
 from givens._by_track import near_track
 from givens._in_track import tell, told_by_number
 from givens._memory import room
-from givens._plan import Goal, Track
+from givens._plan import Goal, Track, refuse_at
 from givens._sampling import PIECES, bytes_of, draws
 from givens._scalars import seed_of, shown, threads_of, whole
 from givens._stack import Stacked, is_ragged, padded
@@ -71,6 +71,9 @@ class Batch(Stacked):
     @classmethod
     def _run(cls, tracks: Sequence[Track], goals: Sequence[Goal], at: Any, threads: int | None) -> Self:
         """Runs the tracks, each after its goal."""
+        if at is not None:
+            for goal in goals:
+                refuse_at(goal)
         times = [None if at is None else track.clock.wanted("at", at) for track in tracks]
         found: list[Any] = [None] * len(tracks)
         alike: dict[Goal, list[int]] = {}

@@ -42,6 +42,7 @@ class Compared:
     rows : int
         Rows that it finished.
     log_likelihood : float
+        Of all rows that it finished, as `consistency`: not to be compared with that of a method that finished others.
     consistency : Consistency
     rmse : ndarray, shape (n,), or None
         Of each state, against the truth: over the rows that all methods finished, but for those that finished none.

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
+import numpy.typing as npt
 
 from givens import _native
 from givens._arrays import Array
@@ -14,7 +15,16 @@ from givens._arrays import Array
 if TYPE_CHECKING:
     from givens.estimates import Estimates
 
-__all__ = ["Consistency", "consistency_of"]
+__all__ = ["Consistency", "Scored", "consistency_of"]
+
+
+class Scored(NamedTuple):
+    """What the rows of a run say of its filter."""
+
+    nis: Array
+    nis_dof: npt.NDArray[np.int64]
+    innovation: Array
+    innovation_cov: Array
 
 
 @dataclass(frozen=True)
@@ -75,11 +85,11 @@ class Consistency:
 
 def consistency_of(runs: Iterable[Estimates]) -> Consistency:
     """Of several runs together."""
-    runs = list(runs)
-    nis = np.concatenate([np.empty(0), *(np.asarray(one.nis) for one in runs)])
-    dof = np.concatenate([np.empty(0, dtype=np.int64), *(np.asarray(one.nis_dof) for one in runs)])
+    scored: list[Scored] = [one.__dict__["_scored"] for one in runs]
+    nis = np.concatenate([np.empty(0), *(np.asarray(one.nis) for one in scored)])
+    dof = np.concatenate([np.empty(0, dtype=np.int64), *(np.asarray(one.nis_dof) for one in scored)])
     found = _native.consistency(nis, dof)
-    correlation, pairs = _lagged(runs)
+    correlation, pairs = _lagged(scored)
     bound = 1.959964 / np.sqrt(pairs) if pairs else float("nan")
     low, high = found["band"]
     return Consistency(
@@ -87,7 +97,7 @@ def consistency_of(runs: Iterable[Estimates]) -> Consistency:
     )
 
 
-def _lagged(runs: Iterable[Estimates]) -> tuple[float, int]:
+def _lagged(runs: Iterable[Scored]) -> tuple[float, int]:
     """The correlation of whitened innovations with those of the row before, component by component."""
     product, square, pairs = 0.0, 0.0, 0
     for one in runs:
@@ -100,7 +110,7 @@ def _lagged(runs: Iterable[Estimates]) -> tuple[float, int]:
     return (product / square if square > 0 else float("nan")), pairs
 
 
-def _whitened(one: Estimates) -> Array:
+def _whitened(one: Scored) -> Array:
     """Innovations divided by their standard deviations."""
     variance = np.diagonal(one.innovation_cov, axis1=1, axis2=2)
     with np.errstate(all="ignore"):

@@ -10,10 +10,10 @@ import numpy.typing as npt
 from givens import _native
 from givens._arrays import Array, frozen
 from givens._clock import Times
-from givens._plan import Goal, Track
+from givens._plan import Goal, Track, refuse_at
 from givens._sampling import draws
 from givens._scalars import seed_of, whole
-from givens.consistency import Consistency, consistency_of
+from givens.consistency import Consistency, Scored, consistency_of
 from givens.errors import InputError, StepError
 
 __all__ = ["Estimates", "step_error"]
@@ -119,6 +119,10 @@ class Estimates:
         }
         fields |= {"state": track.joined.states, "measures": track.joined.measures, "method": track.choice.name}
         fields |= {"failed": failed, "track_id": track.id, "_track": track, "_goal": goal}
+        # other times have no measurements: what is said of all of them is said of the rows
+        rows = found if at is None else native
+        fields["_total"] = native.total_log_likelihood
+        fields["_scored"] = Scored(rows.nis, rows.nis_dof, rows.innovation, rows.innovation_cov)
         fields["_rows"] = goal.rows(track.time) if at is None else len(at.seconds)
         fields["_aware"] = bool(track.clock.aware)
         fields["_whole"] = goal.word == "interval" and at is None and failed is None
@@ -141,8 +145,9 @@ class Estimates:
 
     @property
     def total_log_likelihood(self) -> float:
-        """The log-likelihood of all measurements together."""
-        return float(np.sum(self.log_likelihood))
+        """The log-likelihood of all measurements together, also of those at whose times no estimate was asked for."""
+        total: float = self.__dict__["_total"]
+        return total
 
     def __copy__(self) -> Self:
         return self
@@ -172,6 +177,7 @@ class Estimates:
             From the time of the prior on; dates if the data has dates.
         """
         track, goal = self._run_again()
+        refuse_at(goal)
         wanted = track.clock.wanted("at", times)
         native = track.run(goal.word, goal.value, wanted.seconds)
         error = step_error(track, native, goal)

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from givens._plan import Goal, Track, plan
+from givens._plan import Goal, Track, plan, refuse_at
 from givens._scalars import shown, threads_of
 from givens.batch import Batch
 from givens.errors import InputError
@@ -188,6 +188,8 @@ def _run(tracks: list[Track], batch: bool, goals: list[Goal], at: Any, threads: 
     if batch:
         return Batch._run(tracks, goals, at, threads)
     (track,), (goal,) = tracks, goals
+    if at is not None:
+        refuse_at(goal)
     wanted = None if at is None else track.clock.wanted("at", at)
     native = track.run(goal.word, goal.value, None if wanted is None else wanted.seconds)
     error = step_error(track, native, goal)

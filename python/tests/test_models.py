@@ -259,3 +259,18 @@ def test_a_notebook_shows_a_belief_with_its_correlations():
     related = gv.Gaussian([1.0, 2.0, 3.0], [[4.0, 1.0, 0.0], [1.0, 1.0, 0.0], [0.0, 0.0, 0.0]])._repr_html_()
     assert related.count("corr.") == 2 and "<td>1</td><td>2</td><td>1</td><td>0.5</td><td></td>" in related
     assert gv.Gaussian(np.zeros(40), std=np.ones(40))._repr_html_().count("<tr>") == 14
+
+
+@pytest.mark.parametrize(("method", "points"), [("ckf", 2), ("sr-ckf", 2), ("ukf", 3)])
+def test_a_called_function_is_asked_at_the_points_of_the_rule_only(method, points):
+    asked = []
+
+    def measure(t, x):
+        asked.append(float(x[0]))
+        return [np.log(abs(x[0]))] if points == 2 else [x[0]]
+
+    model = gv.Transition(lambda t, dt, x: x, noise_cov=[[0.1]], state=["x"])
+    sensor = gv.Sensor(measure, measures=["z"], std=[0.1], trace=False)
+    asked.clear()
+    gv.filter(model, sensor, [0.0], [[0.5]], prior=gv.Gaussian([0.0], std=[1.0]), method=method)
+    assert len(asked) == points

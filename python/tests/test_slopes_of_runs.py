@@ -94,15 +94,15 @@ def test_kinks_and_steps_at_the_prior_are_no_slopes():
     assert np.isfinite(run(sensor(bent), 1.0).mean).all()
 
 
-def test_sixteen_points_of_a_batch_are_compared_each_of_them_once(monkeypatch):
+def test_sixty_four_points_of_a_batch_are_compared_each_of_them_once(monkeypatch):
     from givens._trace.derivatives import Watch
 
     counted = []
     real = Watch.at
     monkeypatch.setattr(Watch, "at", lambda self, *point: counted.append(point) or real(self, *point))
-    z = np.zeros((50, 1, 1))
-    gv.filter(STILL, sensor(), [0.0], z, prior=[at(1.0 + k) for k in range(50)], method="ekf")
-    assert len(counted) == 16
+    z = np.zeros((100, 1, 1))
+    gv.filter(STILL, sensor(), [0.0], z, prior=[at(1.0 + k) for k in range(100)], method="ekf")
+    assert len(counted) == 64
     counted.clear()
     gv.filter(STILL, sensor(lambda t, x: np.sin(x)), [0.0], z, prior=at(1.0), method="ekf")
     gv.filter(STILL, sensor(), [0.0], z, prior=at(1.0), method="sr-ckf")
@@ -125,3 +125,19 @@ def test_a_comparison_takes_less_than_a_millisecond():
         part.steep_at(0.0, np.full(n, 1.0 + k), np.empty(0), np.array([0.4]))
         seconds.append(time.perf_counter() - begun)
     assert min(seconds) < 1e-3
+
+
+@pytest.mark.parametrize("mean", [1e3, 1e7, 3.3e9, 1e12])
+def test_waves_that_a_long_step_goes_over_are_no_wrong_slope(mean):
+    model = gv.Transition(lambda t, dt, x: x, noise_cov=[[0.1]], state=["x"])
+    wave = gv.Sensor(lambda t, x: [np.sin(x[0]) + np.abs(x[0])], measures=["z"], std=[1.0])
+    prior = gv.Gaussian([mean], std=[mean * 1e-6])
+    gv.filter(model, wave, [0.0], [[mean]], prior=prior, method="ekf")
+
+
+@pytest.mark.parametrize("mean", [1.0, 1e3, 1e6])
+def test_a_lost_slope_is_found_far_from_zero(mean):
+    model = gv.Transition(lambda t, dt, x: x, noise_cov=[[0.1]], state=["x"])
+    bent = gv.Sensor(lambda t, x: [np.sign(x[0] - mean) * np.abs(x[0] - mean)], measures=["z"], std=[1.0])
+    with pytest.raises(gv.TraceError, match="derivative"):
+        gv.filter(model, bent, [0.0], [[0.0]], prior=gv.Gaussian([mean], std=[1.0]), method="ekf")

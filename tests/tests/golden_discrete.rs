@@ -130,7 +130,7 @@ impl<M: Transition + Sync, H: Observation + Sync> Scenario<M, H> {
             ("EKF", "ekf"),
             ("UKF", "ukf"),
             ("CDKF", "cdkf"),
-            ("QKF", "ghkf"),
+            ("QKF", "qkf"),
             ("CKF", "ckf"),
             ("CKF5", "ckf5"),
         ] {

@@ -32,6 +32,7 @@ pub struct Estimates {
     nis: Array,
     nis_dof: Py<PyArray1<i64>>,
     log_likelihood: Array,
+    total_log_likelihood: f64,
     smoothed: bool,
     at: Option<Py<Estimates>>,
     failure: Option<Py<PyDict>>,
@@ -40,6 +41,7 @@ pub struct Estimates {
 impl Estimates {
     fn of_rows(py: Python<'_>, rows: Rows, n: usize, d: usize) -> PyResult<Self> {
         let (k, smoothed) = (rows.len(), rows.is_smoothed());
+        let total_log_likelihood = rows.total_log_likelihood();
         let array = |values: Vec<f64>, shape: &[usize]| frozen(py, values, shape).map(Bound::unbind);
         let mean = array(rows.mean, &[k, n])?;
         let cov = array(rows.cov, &[k, n, n])?;
@@ -63,6 +65,7 @@ impl Estimates {
             nis: array(rows.nis, &[k])?,
             nis_dof: nis_dof.unbind(),
             log_likelihood: array(rows.log_likelihood, &[k])?,
+            total_log_likelihood,
             smoothed,
             at: None,
             failure: None,
@@ -72,14 +75,15 @@ impl Estimates {
     /// What came of a run; with `at` if other times were asked for.
     pub fn of(py: Python<'_>, outcome: Outcome, model: &Model, choice: &Choice, at: bool) -> PyResult<Self> {
         let (n, d) = (model.states(), model.measures());
-        let Outcome { estimates, failure, at: there, failed_at } = outcome;
+        let Outcome { estimates, failure, at: there, log_likelihood, failed_at } = outcome;
         let failure = failure.as_ref().map(|(row, error): &(usize, StepError)| {
             let at = At { row: Some(*row), mean: &failed_at };
             failure::dict(py, model, Some(choice), error, at).map(Bound::unbind)
         });
         let there = at.then(|| Py::new(py, Self::of_rows(py, there, n, d)?));
         let own = Self::of_rows(py, estimates, n, d)?;
-        Ok(Self { at: there.transpose()?, failure: failure.transpose()?, ..own })
+        let (at, failure) = (there.transpose()?, failure.transpose()?);
+        Ok(Self { at, failure, total_log_likelihood: log_likelihood, ..own })
     }
 }
 

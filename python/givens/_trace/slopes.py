@@ -84,11 +84,24 @@ def wrong_slope(
         # a covariance brings them, rounded as its largest entries are
         room = 4 * noise + 1e-9 * np.abs(slopes).max(axis=1) + 1e-12
         apart = np.abs(found - own) > _RELATIVE * np.maximum(np.abs(found), np.abs(own)) + room
-    wrong = np.argwhere(smooth & apart & np.isfinite(own))
-    if not len(wrong):
-        return None
-    at, k = map(int, wrong[0])
-    return k, along[at], float(own[at, k]), float(found[at, k])
+    for at, k in np.argwhere(smooth & apart & np.isfinite(own)):
+        if _wrong_nearby(function, x, here, along[at], min(_STEP, float(sizes[at]) * _SHARE), int(k), found[at, k]):
+            return int(k), along[at], float(own[at, k]), float(found[at, k])
+    return None
+
+
+def _wrong_nearby(
+    function: Callable[[Array], Array], x: Array, here: Array, direction: Array, step: float, k: int, slope: float
+) -> bool:
+    """Whether a step that does not grow with the state says so, too: long ones go over waves, as of a sine far from zero.
+
+    Where numbers of that size cannot be told apart over such a step, nothing is known.
+    """
+    ahead, behind = function(x + step * direction)[k], function(x - step * direction)[k]
+    size = np.abs(here[k]) + np.abs(x * direction).max() * max(1.0, abs(slope))
+    noise = 32 * np.finfo(float).eps * size / step
+    sides = ((ahead - here[k]) / step, (here[k] - behind) / step)
+    return all(abs(slope - side) > _RELATIVE * max(abs(slope), abs(side)) + noise for side in sides)
 
 
 def _quotients(function: Callable[[Array], Array], x: Array, here: Array, direction: Array, size: float) -> Array:

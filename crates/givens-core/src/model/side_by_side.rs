@@ -3,10 +3,11 @@
 use super::{At, Map};
 use crate::scalar::{Grain, Job, LANES, NARROW, Pack, Real, floats, floats_mut, numbers_mut};
 
-/// How many points a filter over `T` had better evaluate in place of `points`, so that they fill the lanes.
+/// How many points a filter over `T` had better evaluate by `g` in place of `points`, so that they fill the lanes: no more
+/// where they go one by one.
 #[inline(always)]
-pub(crate) fn filled<T: Real>(points: usize) -> usize {
-    if lanes_of_its_own::<T>() { points } else { points.next_multiple_of(LANES) }
+pub(crate) fn filled<T: Real, G: Map>(g: &G, points: usize) -> usize {
+    if lanes_of_its_own::<T>() || !g.serves_packs() { points } else { points.next_multiple_of(LANES) }
 }
 
 /// Scalars before the first one at which a pack may start.

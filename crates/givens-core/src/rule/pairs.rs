@@ -37,7 +37,7 @@ pub(super) fn evaluate<'a, T: Real, G: Map>(
     let (n, d) = (mean.len(), g.outputs());
     let has_angle = (0..d).any(|i| g.angle(i).is_some());
     let centred = centred || has_angle;
-    let points = filled::<T>(2 * pairs + usize::from(centred));
+    let points = filled::<T, G>(g, 2 * pairs + usize::from(centred));
     let skip = misaligned(scratch);
     let (x, rest) = scratch[skip..].split_at_mut(n * points);
     let (y, rest) = rest.split_at_mut(d * points);

@@ -193,7 +193,7 @@ impl<P: Pack<Element = f64>> Lanes<P> {
         let outcome = |estimates: Estimates| {
             let blank = Outcome::new(n, d, goal);
             let at = Estimates::new(n, d, goal != Goal::Filter);
-            Outcome { estimates, at, ..blank }
+            Outcome { log_likelihood: estimates.total_log_likelihood(), estimates, at, ..blank }
         };
         lanes.map(|(lane, estimates)| (well >> lane & 1 == 1).then(|| outcome(estimates))).collect()
     }

@@ -29,6 +29,8 @@ pub struct Outcome {
     /// The states at the times asked for; see [`run_at`](crate::run_at). Of a filter that fails, up to the row at fault; of a
     /// smoother, up to the row before.
     pub at: Estimates,
+    /// The log-likelihood of all measurements that were taken in, also of those whose row gives no estimate.
+    pub log_likelihood: f64,
     /// The mean from which the failed step set out, length n; empty if none failed, or none began.
     pub failed_at: Vec<f64>,
 }
@@ -38,6 +40,7 @@ impl Outcome {
         Self {
             estimates: Estimates::new(states, measures, goal != Goal::Filter),
             failure: None,
+            log_likelihood: 0.0,
             failed_at: Vec::new(),
             at: Estimates::default(),
         }

@@ -96,6 +96,7 @@ impl<'t, 'm, X: Over<M>, M, H: Observation> Recorder<'t, 'm, X, M, H> {
                 outcome.failed_at = self.filter.mean().to_vec();
                 break;
             }
+            outcome.log_likelihood += self.filter.innovation().log_likelihood;
             before = Some(row);
         }
         let out = &mut outcome.estimates;

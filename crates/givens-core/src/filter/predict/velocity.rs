@@ -105,7 +105,8 @@ impl<M: Sde> Image for ByVelocity<'_, M> {
     ) -> Result<(), Fault> {
         let n = mean.len();
         let own = self.velocity.points(n);
-        let points = filled::<T>(own);
+        let flow = Flow { model: self.model, step: false, diffusion: false };
+        let points = filled::<T, _>(&flow, own);
         let skip = misaligned(scratch);
         let _ = take(&mut scratch, skip);
         let x = take(&mut scratch, n * points);
@@ -132,7 +133,6 @@ impl<M: Sde> Image for ByVelocity<'_, M> {
                 }
             }
         }
-        let flow = Flow { model: self.model, step: false, diffusion: false };
         evaluate_side_by_side(&flow, at, points, x, v, scratch);
         let half = T::of(0.5);
         for i in 0..n {

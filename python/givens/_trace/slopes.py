@@ -93,7 +93,7 @@ def wrong_slope(
 def _wrong_nearby(
     function: Callable[[Array], Array], x: Array, here: Array, direction: Array, step: float, k: int, slope: float
 ) -> bool:
-    """Whether a step that does not grow with the state says so, too: long ones go over waves, as of a sine far from zero.
+    """Whether a step that does not grow with the state says so, too: long ones go over waves, of a sine far from zero.
 
     Where numbers of that size cannot be told apart over such a step, nothing is known.
     """

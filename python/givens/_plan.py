@@ -135,6 +135,12 @@ def plan(
         raise InputError(
             "`z` is missing", argument="z", remedy="give times and measurements, or a table with named columns"
         )
+    elif is_table(t):
+        raise InputError(
+            "`t` is a table, and `z` is given besides",
+            argument="z",
+            remedy="a table holds the measurements: leave `z` out, or give the column of times alone",
+        )
     else:
         given, batch = split(plain, t, z, u, noise)
     names = [k if track.id is None else track.id for k, track in enumerate(given)]

@@ -1,4 +1,4 @@
-"""What a run says of all its measurements does not hang on the times that are asked for."""
+"""What a run says of all its measurements does not hang on the times that are asked for; what takes the place of what."""
 
 import numpy as np
 import pytest
@@ -51,3 +51,8 @@ def test_the_rounding_of_products_of_matrices_leaves_a_covariance():
             gv.Gaussian(np.zeros(n), np.linalg.inv(p + 10 * np.eye(n)))
     with pytest.raises(gv.InputError, match="not symmetric"):
         gv.Gaussian([0, 0], [[1, 0.5], [0.5 + 1e-10, 1]])
+
+
+def test_a_table_takes_the_place_of_times_and_measurements():
+    with pytest.raises(gv.InputError, match="`t` is a table, and `z` is given besides"):
+        gv.filter(MODEL, SENSOR, {"time": [0.0, 1.0], "z": [1.0, 2.0]}, Z, **RUN)

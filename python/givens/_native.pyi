@@ -338,6 +338,10 @@ class Choice:
     @property
     def name(self) -> str: ...
     @property
+    def title(self) -> str:
+        """The name, and the parts that were set otherwise."""
+
+    @property
     def kind(self) -> _Kind: ...
     def parts(self, states: int) -> dict[str, str | float]:
         """Parts and options with their values, for a model of so many states."""

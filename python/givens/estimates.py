@@ -117,7 +117,7 @@ class Estimates:
             "time": (at or track.times).of(seconds, track.clock),
             "is_smoothed": found.smoothed,
         }
-        fields |= {"state": track.joined.states, "measures": track.joined.measures, "method": track.choice.name}
+        fields |= {"state": track.joined.states, "measures": track.joined.measures, "method": track.choice.title}
         fields |= {"failed": failed, "track_id": track.id, "_track": track, "_goal": goal}
         # other times have no measurements: what is said of all of them is said of the rows
         rows = found if at is None else native

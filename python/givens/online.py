@@ -192,7 +192,7 @@ class Filter:
     @property
     def method(self) -> str:
         """The method, by its name in the registry."""
-        return self._choice.name
+        return self._choice.title
 
     def copy(self) -> Self:
         """Another filter in the same belief."""

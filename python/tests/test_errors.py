@@ -368,7 +368,7 @@ CASES = [
     (
         lambda: gv.filter(MODEL, LENGTH, np.where(T == 2, np.nan, T), Z, prior=PRIOR),
         gv.InputError,
-        "row 3: time NaN is not finite\n  help: times increase from `t0` on; sort the rows, or start earlier",
+        "row 3: time NaN is not finite\n  help: give its time, or leave the row out",
     ),
     (
         lambda: gv.filter(

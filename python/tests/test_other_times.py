@@ -56,3 +56,18 @@ def test_the_rounding_of_products_of_matrices_leaves_a_covariance():
 def test_a_table_takes_the_place_of_times_and_measurements():
     with pytest.raises(gv.InputError, match="`t` is a table, and `z` is given besides"):
         gv.filter(MODEL, SENSOR, {"time": [0.0, 1.0], "z": [1.0, 2.0]}, Z, **RUN)
+
+
+@pytest.mark.parametrize(
+    ("method", "options", "title"),
+    [
+        ("ckf", {}, "ckf"),
+        ("ckf", {"form": "square-root"}, "ckf, form square-root"),
+        ("sr-ckf", {"rule": "unscented", "form": "covariance"}, "sr-ckf, rule unscented, form covariance"),
+    ],
+)
+def test_a_method_of_other_parts_says_which(method, options, title):
+    est = gv.filter(MODEL, SENSOR, T, Z, **RUN, method=method, **options)
+    assert est.method == title
+    assert f"method={title}" in repr(est)
+    assert gv.Filter(MODEL, SENSOR, **RUN, t0=0.0, method=method, **options).method == title

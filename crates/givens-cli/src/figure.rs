@@ -1,7 +1,6 @@
 //! The figure of a run.
 
 use crate::message::Stop;
-use crate::method::title;
 use crate::plan::Plan;
 use crate::session::Session;
 use givens::Estimates;
@@ -30,7 +29,7 @@ pub fn draw(path: &Path, plan: &Plan, session: &Session) -> Result<Vec<u8>, Stop
     let smoothed = session.estimates().any(Estimates::is_smoothed);
     let what = if smoothed { "smoothed" } else { "filtered" };
     let figure = TrackFigure {
-        title: format!("{} — {what} by {}", stem(&model.file), title(&plan.choice)),
+        title: format!("{} — {what} by {}", stem(&model.file), plan.choice.title()),
         plane_labels: plane.map_or_else(Default::default, |[x, y]| [name(x), name(y)]),
         tracks: (0..session.answers.len()).map(|i| track(plan, session, i)).collect(),
         smoothed,

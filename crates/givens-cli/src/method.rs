@@ -189,19 +189,6 @@ fn refused(error: &SettingError, message: &str, source: &Source) -> Stop {
     }
 }
 
-/// The name of a method, and the parts that were set otherwise.
-pub fn title(choice: &Choice) -> String {
-    let Some(preset) = find(choice.name) else { return choice.name.to_owned() };
-    let parts = [
-        ("rule", preset.rule.word(), choice.rule.word()),
-        ("form", preset.form.word(), choice.form.word()),
-        ("time update", preset.time_update.word(), choice.time_update.word()),
-    ];
-    let changed = parts.iter().filter(|(_, own, set)| own != set);
-    let changed = changed.map(|(part, _, set)| format!("{part} {set}"));
-    [choice.name.to_owned()].into_iter().chain(changed).collect::<Vec<_>>().join(", ")
-}
-
 /// The kind of a model.
 pub fn kind(model: &Model) -> Kind {
     match model.dynamics {

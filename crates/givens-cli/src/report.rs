@@ -1,7 +1,6 @@
 //! What stderr says at the end: how much was done, how likely it was, how right.
 
 use crate::message::{count, digits, say};
-use crate::method::title;
 use crate::plan::Plan;
 use crate::session::Session;
 use givens::Estimates;
@@ -14,7 +13,7 @@ pub fn closing(plan: &Plan, session: &Session) {
     let rows: usize = session.estimates().map(Estimates::len).sum();
     let tracks = plan.tracks.tracks.len();
     let of = if tracks == 1 { String::new() } else { format!(" of {tracks} tracks") };
-    let (title, counted) = (title(&plan.choice), count(rows, "row"));
+    let (title, counted) = (plan.choice.title(), count(rows, "row"));
     if rows == 0 {
         say(&format!("{title}: no row{of} was finished"));
         return;

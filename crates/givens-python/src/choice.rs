@@ -70,6 +70,12 @@ impl Choice {
         self.0.name
     }
 
+    /// The name, and the parts that were set otherwise.
+    #[getter]
+    fn title(&self) -> String {
+        self.0.title()
+    }
+
     #[getter(kind)]
     fn get_kind(&self) -> &'static str {
         self.0.kind().word()

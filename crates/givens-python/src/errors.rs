@@ -110,9 +110,13 @@ pub fn setting(error: SettingError, keys: &[String]) -> Refusal {
 /// A row of the data that cannot serve; the measures by name.
 pub fn data(error: DataError, measures: &[&String]) -> Refusal {
     let input = match error {
-        DataError::Time { row, .. } => Input::new("t", error.to_string())
-            .row(row)
-            .help("times increase from `t0` on; sort the rows, or start earlier"),
+        DataError::Time { row, time, .. } => {
+            Input::new("t", error.to_string()).row(row).help(if time.is_finite() {
+                "times increase from `t0` on; sort the rows, or start earlier"
+            } else {
+                "give its time, or leave the row out"
+            })
+        }
         DataError::Infinite { row, component } => {
             let name = measures.get(component).copied();
             let shown = name.map_or_else(|| component.to_string(), |name| format!("`{name}`"));

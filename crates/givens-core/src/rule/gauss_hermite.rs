@@ -18,6 +18,9 @@ impl Default for GaussHermite {
     }
 }
 
+/// The most points along an axis.
+const POINTS: usize = 64;
+
 /// The largest grid for which a table is made.
 const GRID: usize = 1 << 21;
 
@@ -42,7 +45,7 @@ impl GaussHermite {
 impl PointRule for GaussHermite {
     fn check(&self, n: usize) -> Result<(), RuleError> {
         let value = self.points as f64;
-        if !(2..=64).contains(&self.points) {
+        if !(2..=POINTS).contains(&self.points) {
             return Err(RuleError { option: "points", value, must: "must be from 2 to 64" });
         }
         if n > TABLE_STATES || self.grid(n) > GRID {
@@ -67,6 +70,25 @@ impl PointRule for GaussHermite {
             digits /= self.points;
         }
         product
+    }
+    /// The p roots and their weights are found once: a grid has pⁿ nodes.
+    fn every_pair(&self, n: usize, xi: &mut [f64], put: &mut dyn FnMut(usize, &[f64], f64)) {
+        let p = self.points;
+        let (mut roots, mut weights) = ([0.0; POINTS], [0.0; POINTS]);
+        let (Some(roots), Some(weights)) = (roots.get_mut(..p), weights.get_mut(..p)) else { return };
+        for (i, (x, w)) in roots.iter_mut().zip(&mut *weights).enumerate() {
+            *x = root(p, i);
+            *w = weight(p, *x);
+        }
+        for l in 0..self.grid(n) / 2 {
+            let (mut digits, mut product) = (l, 1.0);
+            for x in &mut *xi {
+                *x = roots[digits % p];
+                product *= weights[digits % p];
+                digits /= p;
+            }
+            put(l, xi, product);
+        }
     }
 }
 
@@ -115,7 +137,23 @@ fn weight(p: usize, x: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{root, weight};
+    use super::{GaussHermite, root, weight};
+    use crate::rule::PointRule;
+
+    #[test]
+    fn all_pairs_are_each_of_them() {
+        for (points, n) in [(2, 1), (3, 4), (5, 3), (64, 2)] {
+            let rule = GaussHermite { points };
+            let (mut all, mut one) = ([0.0; 4], [0.0; 4]);
+            let mut count = 0;
+            rule.every_pair(n, &mut all[..n], &mut |l, xi, weight| {
+                assert_eq!((l, weight), (count, rule.pair(l, &mut one[..n])));
+                assert_eq!(xi, &one[..n]);
+                count += 1;
+            });
+            assert_eq!(count, points.pow(n as u32) / 2);
+        }
+    }
 
     #[test]
     fn three_points_are_zero_and_root_three() {

@@ -76,6 +76,15 @@ pub trait PointRule: Copy {
         let _ = (l, xi);
         f64::NAN
     }
+    /// Gives `put` every pair in order: its number, node and weight. `xi` has length n. A rule whose nodes take long to find
+    /// may find them once for all.
+    fn every_pair(&self, n: usize, xi: &mut [f64], put: &mut dyn FnMut(usize, &[f64], f64)) {
+        let Pairs::Table { count, .. } = self.pairs(n) else { return };
+        for l in 0..count {
+            let weight = self.pair(l, xi);
+            put(l, xi, weight);
+        }
+    }
 }
 
 /// The longest state for which a table of nodes is made.
@@ -102,15 +111,13 @@ impl<R: PointRule> Rule for R {
     fn tabulate<T: Real>(&self, n: usize, table: &mut [T]) {
         let Pairs::Table { count, .. } = self.pairs(n) else { return };
         let mut node = [0.0; TABLE_STATES];
-        let xi = &mut node[..n];
-        for l in 0..count {
-            let weight = self.pair(l, xi);
+        self.every_pair(n, &mut node[..n], &mut |l, xi, weight| {
             table[l] = T::of(weight);
             table[count + l] = T::of(Real::sqrt(2.0 * Real::abs(weight)));
             for (i, &x) in xi.iter().enumerate() {
                 table[(2 + i) * count + l] = T::of(x);
             }
-        }
+        });
     }
 
     #[inline(always)]

@@ -41,6 +41,20 @@ pub struct Choice {
 }
 
 impl Choice {
+    /// The name it was chosen by, and the parts that were set otherwise.
+    #[must_use]
+    pub fn title(&self) -> String {
+        let Some(preset) = find(self.name) else { return self.name.to_owned() };
+        let parts = [
+            ("rule", preset.rule.word(), self.rule.word()),
+            ("form", preset.form.word(), self.form.word()),
+            ("time update", preset.time_update.word(), self.time_update.word()),
+        ];
+        let changed = parts.iter().filter(|(_, own, set)| own != set);
+        let changed = changed.map(|(part, _, set)| format!("{part} {set}"));
+        [self.name.to_owned()].into_iter().chain(changed).collect::<Vec<_>>().join(", ")
+    }
+
     /// Which models it serves.
     pub const fn kind(&self) -> Kind {
         self.time_update.kind()

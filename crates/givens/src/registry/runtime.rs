@@ -37,6 +37,9 @@ impl PointRule for AnyPoints {
     fn pair(&self, l: usize, xi: &mut [f64]) -> f64 {
         each!(self, rule => rule.pair(l, xi))
     }
+    fn every_pair(&self, n: usize, xi: &mut [f64], put: &mut dyn FnMut(usize, &[f64], f64)) {
+        each!(self, rule => rule.every_pair(n, xi, put));
+    }
 }
 
 /// A method from its parts.

@@ -254,7 +254,7 @@ CASES = [
     (
         lambda: walk({"time": np.ma.masked_array([0.0, 1, 2], [0, 1, 0]), "p": [1] * 3, "q": [1] * 3}, None),
         "row 1: time NaN is not finite",
-        "times increase from `t0` on; sort the rows, or start earlier",
+        "give its time, or leave the row out",
     ),
     (lambda: walk(t=np.ma.masked_array(DAYS, [0, 0, 1])), "`t` is no time at row 2", "leave the row out"),
     (

@@ -13,7 +13,12 @@ pub(crate) fn filled<T: Real, G: Map>(g: &G, points: usize) -> usize {
 /// Scalars before the first one at which a pack may start.
 #[inline(always)]
 pub(crate) fn misaligned<T: Real>(memory: &[T]) -> usize {
-    if lanes_of_its_own::<T>() { 0 } else { memory.as_ptr().align_offset(LANES * size_of::<f64>()) }
+    if lanes_of_its_own::<T>() {
+        return 0;
+    }
+    // by the address: `align_offset` need not find any
+    let behind = memory.as_ptr().addr() / size_of::<f64>() % LANES;
+    (LANES - behind) % LANES
 }
 
 /// Scalars that [`misaligned`] may skip, and that [`filled`] may add to a row.

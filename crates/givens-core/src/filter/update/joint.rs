@@ -21,7 +21,8 @@ pub(super) const fn joint_scratch(n: usize, d: usize, rest: usize) -> usize {
     d * larger(rest, d) + n
 }
 
-/// Writes the block, d rows of [T11 0] and those `below`, of length d + n, from the `factor` S of n states. Since X = [S 0], only the rest of Z and S_R
+/// Writes the block, d rows of [T11 0] and those `below`, of length d + n, from the `factor` S of n states. Since
+/// X = [S 0], only the rest of Z and S_R
 /// need a full triangularisation; a sweep of rotations absorbs D.
 #[inline(always)]
 pub(super) fn joint<T: Real>(

@@ -13,6 +13,7 @@ mod rest;
 mod solve;
 mod sweep;
 mod tria;
+mod tria_panels;
 mod tria_wide;
 
 pub use cholesky::{cholesky, cholesky_scaled};

@@ -12,6 +12,7 @@ mod product;
 mod rest;
 mod solve;
 mod sweep;
+mod sweep_in_lanes;
 mod tria;
 mod tria_panels;
 mod tria_wide;
@@ -26,4 +27,5 @@ pub use product::{
 };
 pub use solve::{divide_lower, divide_lower_transposed, solve_lower, solve_lower_rows};
 pub use sweep::sweep;
+pub use sweep_in_lanes::sweep_scratch;
 pub use tria::tria;

@@ -2,7 +2,7 @@
 
 use super::Sensed;
 use crate::filter::memory::{larger, put_columns, put_identity, take};
-use crate::kernels::{sweep, tria};
+use crate::kernels::{sweep, sweep_scratch, tria};
 use crate::scalar::Real;
 
 /// Which rows stand below Z in the block.
@@ -18,7 +18,7 @@ pub(super) enum Below {
 
 /// Scalars of scratch of [`joint`], for `rest` columns of E and noise.
 pub(super) const fn joint_scratch(n: usize, d: usize, rest: usize) -> usize {
-    d * larger(rest, d) + n
+    d * larger(rest, d) + sweep_scratch(d, n)
 }
 
 /// Writes the block, d rows of [T11 0] and those `below`, of length d + n, from the `factor` S of n states. Since X = [S 0], only the rest of Z and S_R

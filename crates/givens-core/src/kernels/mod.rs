@@ -10,6 +10,8 @@ mod lu;
 mod outlined;
 mod product;
 mod rest;
+mod rotations;
+mod side_by_side;
 mod solve;
 mod sweep;
 mod sweep_in_lanes;

@@ -159,7 +159,9 @@ impl<const H: usize> Panel<'_, H> {
                     sums[j] = next.mul_add(x, sums[j]);
                 }
             }
-            *along = sums.map(P::sum);
+            for j in Q + 1..H {
+                along[j] = sums[j].sum();
+            }
         }
         v[Q][Q] = moved;
     }

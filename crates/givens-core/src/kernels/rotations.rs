@@ -85,7 +85,7 @@ impl<'a> Rotations<'a> {
             sum += part;
         }
         for (j, &z) in rest.iter().enumerate().rev() {
-            sum = z.mul_add(z, sum);
+            sum = Real::mul_add(z, z, sum);
             norms[j] = sum;
         }
         let bound = (d + n) as f64 * f64::EPSILON;

@@ -84,23 +84,20 @@ fn panel<P: Pack<Element = f64>, const H: usize>(
 ) -> usize {
     let (own, below) = from.split_at_mut(H * stride);
     let mut squares = [0.0; H];
-    let mut own = own.chunks_exact_mut(stride).zip(&mut squares);
-    let v = core::array::from_fn(|_| {
-        own.next().map_or_else(Default::default, |(row, square)| {
-            let (settled, left) = row[..whole].split_at_mut(first);
-            *square = dot::<P>(settled, settled);
-            left
-        })
-    });
+    for (row, square) in own.chunks_exact(stride).zip(&mut squares) {
+        *square = dot::<P>(&row[..first], &row[..first]).sum();
+    }
+    let mut own = own.chunks_exact_mut(stride);
+    let v = core::array::from_fn(|_| own.next().map_or_else(Default::default, |row| &mut row[first..whole]));
     let mut panel =
         Panel { first, v, settled: [[0.0; H]; H], factor: [0.0; H], flip: [1.0; H], along: [0.0; H] };
     for j in 0..H {
-        panel.along[j] = dot::<P>(panel.v[0], panel.v[j]);
+        panel.along[j] = dot::<P>(panel.v[0], panel.v[j]).sum();
     }
     let bound = columns as f64 * f64::EPSILON;
     let mut nothing = |q: usize, panel: &Panel<H>| {
         for x in panel.settled[q] {
-            squares[q] = x.mul_add(x, squares[q]);
+            squares[q] += x * x;
         }
         let rest = panel.along[q];
         first + q >= columns || rest <= bound * bound * (squares[q] + rest)
@@ -177,7 +174,7 @@ impl<const H: usize> Panel<'_, H> {
         let mut products = [[0.0; PANEL]; PANEL];
         for s in 0..done {
             for q in s + 1..done {
-                products[s][q] = dot::<P>(v[s], v[q]);
+                products[s][q] = dot::<P>(v[s], v[q]).sum();
             }
         }
         // all at once x becomes x + Σ t_q v_q with t = Tᵀ d and d_q = v_q·x
@@ -246,7 +243,11 @@ fn two<P: Pack<Element = f64>>(v: [&[f64]; PANEL], t: &[[f64; PANEL]; PANEL], x:
 /// Four reflections go over one row.
 #[inline(always)]
 fn one<P: Pack<Element = f64>>(v: [&[f64]; PANEL], t: &[[f64; PANEL]; PANEL], x: &mut [f64]) {
-    let d = turned::<P>(t, v.map(|v| P::splat(0.0).with_lane(0, dot::<P>(v, x))));
+    let mut d = [P::zero(); PANEL];
+    for (d, v) in d.iter_mut().zip(v) {
+        *d = dot::<P>(v, x);
+    }
+    let d = turned(t, d);
     for c in (0..x.len()).step_by(P::WIDTH) {
         let mut a = P::load(&x[c..]);
         for q in 0..PANEL {
@@ -266,15 +267,19 @@ fn turned<P: Pack<Element = f64>>(t: &[[f64; PANEL]; PANEL], d: [P; PANEL]) -> [
             by[q] = t[s][q].mul_add(d, by[q]);
         }
     }
-    by.map(P::splat)
+    let mut splat = [P::zero(); PANEL];
+    for (splat, by) in splat.iter_mut().zip(by) {
+        *splat = P::splat(by);
+    }
+    splat
 }
 
-/// Σ v x over whole packs.
+/// Σ v x over whole packs, as the sum of the lanes.
 #[inline(always)]
-fn dot<P: Pack<Element = f64>>(v: &[f64], x: &[f64]) -> f64 {
+fn dot<P: Pack<Element = f64>>(v: &[f64], x: &[f64]) -> P {
     let mut sum = P::zero();
     for (v, x) in v.chunks_exact(P::WIDTH).zip(x.chunks_exact(P::WIDTH)) {
         sum = P::load(v).mul_add(P::load(x), sum);
     }
-    sum.sum()
+    sum
 }

@@ -3,7 +3,7 @@
 
 use core::hint::black_box;
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
-use givens_core::kernels::{sweep, tria};
+use givens_core::kernels::{sweep, sweep_scratch, tria};
 
 /// Numbers that repeat after eleven, with a larger diagonal.
 fn matrix(rows: usize, columns: usize) -> Vec<f64> {
@@ -39,7 +39,7 @@ fn rotate(c: &mut Criterion) {
                 *number = 0.0;
             }
         }
-        let (mut a, mut scratch) = (start.clone(), vec![0.0; n]);
+        let (mut a, mut scratch) = (start.clone(), vec![0.0; sweep_scratch(d, n)]);
         group.bench_function(BenchmarkId::from_parameter(format!("{d} x {n}")), |b| {
             b.iter(|| {
                 a.copy_from_slice(&start);

@@ -20,6 +20,24 @@ fn drift<T: Real>(x: &[T], dx: &mut [T]) {
     }
 }
 
+/// One step of the classic method, of at most N states.
+#[inline(always)]
+fn classic<T: Real, const N: usize>(at: &At<T>, x: &[T], out: &mut [T]) {
+    let n = x.len();
+    let (mut k, mut y) = ([T::zero(); N], [T::zero(); N]);
+    let (k, y) = (&mut k[..n], &mut y[..n]);
+    out.copy_from_slice(x);
+    y.copy_from_slice(x);
+    for (weight, ahead) in [(1.0, 0.5), (2.0, 0.5), (2.0, 1.0), (1.0, 0.0)] {
+        let (weight, ahead) = (T::of(weight / 6.0) * at.dt, T::of(ahead) * at.dt);
+        drift(y, k);
+        for i in 0..n {
+            out[i] = weight.mul_add(k[i], out[i]);
+            y[i] = ahead.mul_add(k[i], x[i]);
+        }
+    }
+}
+
 impl Transition for Circle {
     fn states(&self) -> usize {
         self.0
@@ -27,18 +45,12 @@ impl Transition for Circle {
 
     #[inline(always)]
     fn transition<T: Real>(&self, at: &At<T>, x: &[T], out: &mut [T]) {
-        let n = x.len();
-        let (mut k, mut y) = ([T::zero(); MOST], [T::zero(); MOST]);
-        let (k, y) = (&mut k[..n], &mut y[..n]);
-        out.copy_from_slice(x);
-        y.copy_from_slice(x);
-        for (weight, ahead) in [(1.0, 0.5), (2.0, 0.5), (2.0, 1.0), (1.0, 0.0)] {
-            let (weight, ahead) = (T::of(weight / 6.0) * at.dt, T::of(ahead) * at.dt);
-            drift(y, k);
-            for i in 0..n {
-                out[i] = weight.mul_add(k[i], out[i]);
-                y[i] = ahead.mul_add(k[i], x[i]);
-            }
+        // memory of about the right size: to clear more would take longer than the step
+        match x.len() {
+            ..=32 => classic::<T, 32>(at, x, out),
+            33..=64 => classic::<T, 64>(at, x, out),
+            65..=128 => classic::<T, 128>(at, x, out),
+            _ => classic::<T, MOST>(at, x, out),
         }
     }
 

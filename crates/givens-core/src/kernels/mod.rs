@@ -10,9 +10,13 @@ mod lu;
 mod outlined;
 mod product;
 mod rest;
+mod rotations;
+mod side_by_side;
 mod solve;
 mod sweep;
+mod sweep_in_lanes;
 mod tria;
+mod tria_panels;
 mod tria_wide;
 
 pub use cholesky::{cholesky, cholesky_scaled};
@@ -25,4 +29,5 @@ pub use product::{
 };
 pub use solve::{divide_lower, divide_lower_transposed, solve_lower, solve_lower_rows};
 pub use sweep::sweep;
+pub use sweep_in_lanes::sweep_scratch;
 pub use tria::tria;

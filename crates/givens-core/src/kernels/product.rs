@@ -36,6 +36,22 @@ pub fn less_dot<T: Real>(start: T, a: &[T], b: &[T]) -> T {
 /// start + Σ |xᵢ|: a bound of every xᵢ, and not finite if one of them is not.
 #[inline(always)]
 pub fn plus_magnitudes<T: Real>(start: T, row: &[T]) -> T {
+    if row.len() >= 16 {
+        // in four sums: the additions need not wait for each other
+        let (quads, rest) = row.as_chunks::<4>();
+        let mut sums = [start, T::zero(), T::zero(), T::zero()];
+        for quad in quads {
+            for k in 0..4 {
+                sums[k] += quad[k].abs();
+            }
+        }
+        return plus_magnitudes_of_few((sums[0] + sums[1]) + (sums[2] + sums[3]), rest);
+    }
+    plus_magnitudes_of_few(start, row)
+}
+
+#[inline(always)]
+fn plus_magnitudes_of_few<T: Real>(start: T, row: &[T]) -> T {
     let mut sum = start;
     for &x in row {
         sum += x.abs();

@@ -1,5 +1,6 @@
 //! A sweep of Givens rotations: absorbs a linear map of a triangular factor into that factor.
 
+use super::sweep_in_lanes::sweep_in_lanes;
 use super::{Health, dot, outlined};
 use crate::scalar::{Mask, Real};
 
@@ -11,7 +12,7 @@ outlined! {
     /// rotation itself. Every row of D is rotated into its pivot from the last column to the first, which leaves S
     /// triangular throughout; all cosines of a row come from one running sum of squares. It is the measurement update
     /// (2010 eq 36). A row that the earlier ones leave at most (d + n) ε of is zero; its pivot and column are then zero, as
-    /// in [`tria`](super::tria()). `scratch` has length n.
+    /// in [`tria`](super::tria()). `scratch` holds [`sweep_scratch`](super::sweep_scratch) scalars.
     pub fn sweep(a: &mut [T], d: usize, n: usize, scratch: &mut [T]) -> Health<T> = swept
 }
 
@@ -20,10 +21,11 @@ fn swept<T: Real>(a: &mut [T], d: usize, n: usize, scratch: &mut [T]) -> Health<
     let size = d + n;
     let rows = a.len() / size.max(1);
     debug_assert!((rows - d).is_multiple_of(n.max(1)) && scratch.len() >= n);
+    let absorbed = sweep_in_lanes(a, d, n, scratch);
     let norms = &mut scratch[..n];
     let mut health = Health::good();
     let bound = T::of(size as f64 * T::EPSILON);
-    for q in 0..d {
+    for q in absorbed..d {
         let row = &a[q * size..(q + 1) * size];
         let pivot = row[q];
         let settled = dot(&row[..q], &row[..q]);

@@ -1,7 +1,8 @@
 //! The sweep is Tria of the block that it is given, without its zeros.
 
 use super::matrix::{Matrix, apart, factor, is_factor};
-use givens_core::kernels::{sweep, tria};
+use core::ops::RangeInclusive;
+use givens_core::kernels::{sweep, sweep_scratch, tria};
 use givens_core::scalar::Real;
 use proptest::prelude::*;
 
@@ -18,7 +19,8 @@ fn block(l: &Matrix, between: &Matrix, s: &Matrix) -> Matrix {
 
 fn swept<T: Real>(a: &Matrix, d: usize) -> Matrix {
     let size = a.columns;
-    let (mut memory, mut scratch) = (a.memory::<T>(size, 0.0), vec![T::of(f64::NAN); size - d]);
+    let mut memory = a.memory::<T>(size, 0.0);
+    let mut scratch = vec![T::of(f64::NAN); sweep_scratch(d, size - d)];
     assert!(sweep(&mut memory, d, size - d, &mut scratch).failed().is_none());
     Matrix::of(a.rows, size, &memory, size)
 }
@@ -42,20 +44,44 @@ fn agree<T: Real>(a: &Matrix, d: usize) -> Result<(), TestCaseError> {
     Ok(())
 }
 
-/// L and S of a measurement of d components and n states, and what is between them.
-fn parts() -> impl Strategy<Value = (Matrix, Matrix, Matrix)> {
-    (1usize..=6, 1usize..=6).prop_flat_map(|(d, n)| {
+/// L and S of a measurement of `d` components and `n` states, and what is between them.
+fn parts(
+    d: RangeInclusive<usize>,
+    n: RangeInclusive<usize>,
+) -> impl Strategy<Value = (Matrix, Matrix, Matrix)> {
+    (d, n).prop_flat_map(|(d, n)| {
         let between = prop::collection::vec(-2.0..2.0, d * n);
         let between = between.prop_map(move |of| Matrix::new(d, n, |i, j| of[i * n + j]));
         (factor(d), between, factor(n))
     })
 }
 
+/// What stands below [L D; 0 S] is turned as that is, which does not notice.
+fn turned_alike(l: &Matrix, between: &Matrix, s: &Matrix) -> Result<(), TestCaseError> {
+    let (d, n) = (l.rows, s.rows);
+    let a = block(l, between, s);
+    let alone = swept::<f64>(&a, d);
+    let stacked = Matrix::new(d + 2 * n, d + n, |i, j| match i.checked_sub(d + n) {
+        None => a.at(i, j),
+        Some(i) => f64::from(j == d + i),
+    });
+    let both = swept::<f64>(&stacked, d);
+    for (i, j) in (0..d + n).flat_map(|i| (0..d + n).map(move |j| (i, j))) {
+        prop_assert_eq!(both.at(i, j), alone.at(i, j));
+    }
+    // [T21 T22] = S [A B], what stands below with I in place of S
+    for (i, j) in (0..n).flat_map(|i| (0..d + n).map(move |j| (i, j))) {
+        let product: f64 = (0..n).map(|k| s.at(i, k) * both.at(d + n + k, j)).sum();
+        prop_assert!((both.at(d + i, j) - product).abs() < 1e-13 * s.norm(i).max(1e-300));
+    }
+    Ok(())
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn it_is_tria_of_the_assembled_block((l, between, s) in parts(), noiseless: bool) {
+    fn it_is_tria_of_the_assembled_block((l, between, s) in parts(1..=6, 1..=6), noiseless: bool) {
         let d = l.rows;
         // without noise L is zero, and D alone has to fill the pivots
         let l = if noiseless { Matrix::new(d, d, |_, _| 0.0) } else { l };
@@ -65,22 +91,53 @@ proptest! {
     }
 
     #[test]
-    fn what_stands_below_is_turned_alike((l, between, s) in parts()) {
-        let (d, n) = (l.rows, s.rows);
-        let a = block(&l, &between, &s);
-        let alone = swept::<f64>(&a, d);
-        let stacked = Matrix::new(d + 2 * n, d + n, |i, j| match i.checked_sub(d + n) {
-            None => a.at(i, j),
-            Some(i) => f64::from(j == d + i),
+    fn what_stands_below_is_turned_alike((l, between, s) in parts(1..=6, 1..=6)) {
+        turned_alike(&l, &between, &s)?;
+    }
+}
+
+// sizes at which rows go side by side
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 60, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn large_ones_are_tria_too((l, between, s) in parts(1..=20, 8..=40)) {
+        agree::<f64>(&block(&l, &between, &s), l.rows)?;
+        turned_alike(&l, &between, &s)?;
+    }
+
+    /// A measure without noise, one that has no spread either, and one that repeats the first.
+    #[test]
+    fn a_large_one_may_lack_any_row((l, between, s) in parts(2..=20, 8..=30), row in 0usize..20, kind in 0..3) {
+        let d = l.rows;
+        let row = 1 + row % (d - 1);
+        let of = |from: &Matrix, keep: bool| {
+            let at = |i: usize, j| if i != row { from.at(i, j) } else if keep { from.at(0, j) } else { 0.0 };
+            Matrix::new(d, from.columns, at)
+        };
+        let (noise, spread) = match kind {
+            0 => (of(&l, false), between),
+            1 => (of(&l, false), of(&between, false)),
+            _ => (of(&l, true), of(&between, true)),
+        };
+        let a = block(&noise, &spread, &s);
+        agree::<f64>(&a, d)?;
+        if kind == 1 {
+            prop_assert_eq!(swept::<f64>(&a, d).at(row, row), 0.0);
+        }
+    }
+}
+
+#[test]
+fn what_is_not_a_number_stays_none() {
+    for (d, n, bad) in [(2, 3, 1), (9, 20, 0), (9, 20, 8), (20, 33, 12)] {
+        let size = d + n;
+        let mut a = Matrix::new(size, size, |i, j| {
+            f64::from(j <= i && (i < d) == (j < d)) + f64::from(j >= d && i < d)
         });
-        let both = swept::<f64>(&stacked, d);
-        for (i, j) in (0..d + n).flat_map(|i| (0..d + n).map(move |j| (i, j))) {
-            prop_assert_eq!(both.at(i, j), alone.at(i, j));
-        }
-        // [T21 T22] = S [A B], what stands below with I in place of S
-        for (i, j) in (0..n).flat_map(|i| (0..d + n).map(move |j| (i, j))) {
-            let product: f64 = (0..n).map(|k| s.at(i, k) * both.at(d + n + k, j)).sum();
-            prop_assert!((both.at(d + i, j) - product).abs() < 1e-13 * s.norm(i).max(1e-300));
-        }
+        a.data[bad * size + d + 1] = f64::NAN;
+        let t = swept::<f64>(&a, d);
+        assert!(t.at(bad, bad).is_nan(), "{d} {n}");
+        assert!((0..bad).all(|i| t.row(i).iter().all(|x| x.is_finite())));
     }
 }

@@ -112,17 +112,80 @@ fn what_is_not_a_number_stays_none() {
     assert!(s.data.iter().any(|x| x.is_nan()));
 }
 
+/// Numbers in [−1, 1] without a pattern.
+fn mixed(n: usize, k: usize) -> Matrix {
+    Matrix::new(n, k, |i, j| {
+        let mixed = (i * 1000 + j + 1) as u64;
+        let mixed = mixed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ (mixed << 21);
+        (mixed.wrapping_mul(0xbf58_476d_1ce4_e5b9) >> 33) as f64 / f64::from(1_u32 << 30) - 1.0
+    })
+}
+
+/// Its root by every kernel: of rows that end in room for whole packs, and of those that do not.
+fn every_way(a: &Matrix) -> Vec<Matrix> {
+    let least = a.rows.max(a.columns);
+    let whole = least.next_multiple_of(4);
+    let roots = [whole + 1, whole, whole + 8].map(|stride| {
+        let (s, error) = triangular_in::<f64>(a, stride);
+        let (n, k) = (a.rows, a.columns);
+        assert!(is_factor(&s) && error < 8.0 * k as f64, "{n} x {k} in {stride}: {error}");
+        s
+    });
+    roots.into()
+}
+
 #[test]
 fn long_rows_and_many_of_them_too() {
-    for (n, k) in [(20, 60), (21, 64), (50, 64), (40, 170), (130, 300)] {
-        let a = Matrix::new(n, k, |i, j| {
-            let mixed = (i * 1000 + j + 1) as u64;
-            let mixed = mixed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ (mixed << 21);
-            (mixed.wrapping_mul(0xbf58_476d_1ce4_e5b9) >> 33) as f64 / f64::from(1_u32 << 30) - 1.0
-        });
-        for stride in [k, k.next_multiple_of(4), k.next_multiple_of(4) + 8] {
-            let (s, error) = triangular_in::<f64>(&a, stride);
-            assert!(is_factor(&s) && error < 8.0 * k as f64, "{n} x {k} in {stride}: {error}");
+    for (n, k) in [(1, 60), (2, 70), (3, 61), (20, 60), (21, 64), (33, 33), (50, 64), (40, 170), (130, 300)] {
+        every_way(&mixed(n, k));
+    }
+}
+
+#[test]
+fn rows_that_end_in_zeros_have_the_same_root() {
+    for (n, k) in [(17, 52), (18, 60), (39, 120), (50, 100)] {
+        let full = mixed(n, k);
+        // diagonal noise behind a full block; staggered ends; a triangle, which is its own root but for signs
+        every_way(&Matrix::new(n, k, |i, j| if j < k - n || j - (k - n) == i { full.at(i, j) } else { 0.0 }));
+        every_way(&Matrix::new(n, k, |i, j| if j < 3 + (i * 7) % k { full.at(i, j) } else { 0.0 }));
+        for s in every_way(&Matrix::new(n, k, |i, j| if j <= i { full.at(i, j) } else { 0.0 })) {
+            for (i, j) in (0..n).flat_map(|i| (0..=i).map(move |j| (i, j))) {
+                assert!((s.at(i, j).abs() - full.at(i, j).abs()).abs() < 1e-14, "{i} {j}");
+            }
         }
+    }
+}
+
+#[test]
+fn a_long_row_may_have_nothing_left_wherever_it_stands() {
+    for (n, k) in [(18, 60), (37, 80), (20, 16), (40, 38)] {
+        for lost in [0, 1, 2, 3, 4, 7, n - 2, n - 1] {
+            let full = mixed(n, k);
+            // a row of zeros, and one that repeats the row above
+            for repeats in [false, true] {
+                let of = |i, j| match (i == lost, repeats && lost > 0) {
+                    (true, false) => 0.0,
+                    (true, true) => full.at(lost - 1, j),
+                    _ => full.at(i, j),
+                };
+                for s in every_way(&Matrix::new(n, k, of)) {
+                    assert!(s.at(lost, lost) < 1e-13, "{n} x {k}: {lost} {}", s.at(lost, lost));
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn what_is_not_a_number_stays_none_in_long_rows_too() {
+    for (n, k, bad) in [(18, 60_usize, 0), (18, 60, 5), (40, 120, 39)] {
+        let whole = k.next_multiple_of(4);
+        let full = mixed(n, k);
+        let a = Matrix::new(n, k, |i, j| if (i, j) == (bad, k - 1) { f64::NAN } else { full.at(i, j) });
+        let (s, _) = triangular_in::<f64>(&a, whole);
+        assert!(
+            s.at(bad, bad).is_nan() && (0..bad).all(|i| s.row(i).iter().all(|x| x.is_finite())),
+            "{n} {bad}"
+        );
     }
 }

@@ -1,9 +1,9 @@
 //! One triangularisation: [T11 0; T21 T22] = Tria([Z S_R; X 0]) (2010 eq 36; 2011 eq 27).
 
 use super::Sensed;
-use crate::filter::memory::{larger, put_columns, put_identity, take};
-use crate::kernels::{sweep, tria};
-use crate::scalar::Real;
+use crate::filter::memory::{larger, put_columns, put_identity, take, whole_packs};
+use crate::kernels::{plus_magnitudes, sweep, sweep_scratch, tria};
+use crate::scalar::{Mask, Real};
 
 /// Which rows stand below Z in the block.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -18,7 +18,7 @@ pub(super) enum Below {
 
 /// Scalars of scratch of [`joint`], for `rest` columns of E and noise.
 pub(super) const fn joint_scratch(n: usize, d: usize, rest: usize) -> usize {
-    d * larger(rest, d) + n
+    d * whole_packs(larger(rest, d)) + sweep_scratch(d, n)
 }
 
 /// Writes the block, d rows of [T11 0] and those `below`, of length d + n, from the `factor` S of n states. Since
@@ -35,12 +35,21 @@ pub(super) fn joint<T: Real>(
 ) -> T::Mask {
     let (d, stride) = (sensed.d, sensed.stride);
     let (rest, size) = (stride - n, d + n);
-    let wide = larger(rest, d);
+    let wide = whole_packs(larger(rest, d));
     let noise = take(&mut scratch, d * wide);
     for (to, from) in noise.chunks_exact_mut(wide).zip(sensed.dev.chunks_exact(stride)) {
         to[..rest].copy_from_slice(&from[n..]);
     }
-    let sick = tria(noise, d, rest, wide).sick;
+    let sick = if plain(noise, wide, rest, sensed) {
+        for (i, row) in noise.chunks_exact_mut(wide).enumerate() {
+            let deviation = row[sensed.bends + i].abs();
+            row.fill(T::zero());
+            row[i] = deviation;
+        }
+        T::Mask::splat(false)
+    } else {
+        tria(noise, d, rest, wide).sick
+    };
     block.fill(T::zero());
     for i in 0..d {
         block[i * size..][..d].copy_from_slice(&noise[i * wide..][..d]);
@@ -54,4 +63,27 @@ pub(super) fn joint<T: Real>(
         put_identity(&mut block[last..], size, d, n);
     }
     sick | sweep(block, d, n, scratch).sick
+}
+
+/// Whether S_R is diagonal, and E below the rounding of every R_ij: linear measures of independent noise. [E S_R] is then
+/// triangular as it stands, but for rounding.
+#[inline(always)]
+fn plain<T: Real>(noise: &[T], wide: usize, rest: usize, sensed: &Sensed<T>) -> bool {
+    let (d, bends) = (sensed.d, sensed.bends);
+    for (i, row) in noise.chunks_exact(wide).take(d).enumerate() {
+        let (bent, root) = row[..rest].split_at(bends);
+        let Some(&deviation) = root.get(i) else { return false };
+        // of two such rows the product is below ε √(R_ii R_jj)
+        let bound = T::of(Real::sqrt(0.01 * T::EPSILON)) * deviation.abs();
+        // most measures that are bent show it at once
+        if !bent.first().is_none_or(|x| x.abs().le(bound).all()) {
+            return false;
+        }
+        let size = plus_magnitudes(T::zero(), bent);
+        let beside = plus_magnitudes(plus_magnitudes(T::zero(), &root[..i]), &root[i + 1..]);
+        if !(size.le(bound) & beside.same(T::zero())).all() {
+            return false;
+        }
+    }
+    true
 }

@@ -19,6 +19,8 @@ pub(super) struct Sensed<'a, T: Real> {
     /// d rows of length `stride`: D (n columns), E, S_R.
     pub dev: &'a [T],
     pub stride: usize,
+    /// Columns of E.
+    pub bends: usize,
     /// d rows of length `lost`.
     pub minus: &'a [T],
     pub lost: usize,
@@ -149,7 +151,7 @@ pub(super) fn sense<'a, T: Real, H: Observation, R: Rule>(
     if moved {
         turn(belief.moved, dev, d, stride, scratch);
     }
-    Ok((Sensed { d, dof, dev, stride, minus, lost: shape.minus, exact }, sick))
+    Ok((Sensed { d, dof, dev, stride, bends: shape.plus, minus, lost: shape.minus, exact }, sick))
 }
 
 /// [M; D] Q = [S; D Q] with S lower triangular: D from the coordinates of M to those of S.

@@ -184,6 +184,11 @@ impl Graph {
         self.ops.get(node.index()).copied().unwrap_or(Op::Constant(f64::NAN.to_bits()))
     }
 
+    /// The node, or not-a-number if it is another graph's.
+    pub(crate) fn own(&self, node: Node) -> Node {
+        if node.index() < self.ops.len() { node } else { Node::NAN }
+    }
+
     /// The nodes that `nodes` are made of, themselves included, operands first.
     pub(crate) fn reachable(&self, nodes: &[Node]) -> Vec<Node> {
         let valid = nodes.iter().filter(|node| node.index() < self.ops.len());

@@ -113,7 +113,8 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
             blurred = distinct(reach, belief.mean, belief.factor, floor, before)
                 .map_err(|fault| StepError { fault, time: t, step })?;
         }
-        let given = Given { rule: &rule, table, model, at: At { t: start, dt: length, u, p } };
+        let at = At { t: start, dt: length, u, p };
+        let given = Given { rule: &rule, table, model, at, again: chained && !smoothing };
         let back = smoothing.then_some(if chained { &mut later } else { &mut total });
         let done = time_update.step::<T, _, X::Form>(&given, &mut belief, back, &mut work, scratch);
         let chain = match done {

@@ -12,6 +12,7 @@ mod product;
 mod rest;
 mod rotations;
 mod side_by_side;
+mod sized;
 mod solve;
 mod sweep;
 mod sweep_in_lanes;
@@ -27,6 +28,7 @@ pub(crate) use outlined::outlined;
 pub use product::{
     add_outer, copy_lower, dot, less_dot, plus_dot, plus_magnitudes, product_lower, square, wild_row,
 };
+pub(crate) use sized::sized;
 pub use solve::{divide_lower, divide_lower_transposed, solve_lower, solve_lower_rows};
 pub use sweep::sweep;
 pub use sweep_in_lanes::sweep_scratch;

@@ -17,7 +17,7 @@ macro_rules! outlined {
                     $body($($arg),*)
                 }
             }
-            T::within(Call(($($arg,)*)))
+            T::vectorised(Call(($($arg,)*)))
         }
     };
 }

@@ -53,17 +53,19 @@ impl<M: Sde> Map for Expanded<'_, M> {
         let (next, below) = out.split_at_mut(all);
         let (here, rest) = scratch.split_at_mut(all);
         let (l0, rest) = rest.split_at_mut(all);
-        here.copy_from_slice(x);
         for k in 0..self.times {
             let at = At { t: at.t + T::of(k as f64) * at.dt, ..*at };
+            let from = if k == 0 { x } else { &*here };
             // only what stands below is wanted of Lf
             let lf = if self.noise { &mut *below } else { &mut [] };
-            self.model.expansion_points(&at, points, here, next, l0, lf, rest);
+            self.model.expansion_points(&at, points, from, next, l0, lf, rest);
             let half = T::of(0.5) * at.dt;
-            for ((f, &l0), &x) in next.iter_mut().zip(&*l0).zip(&*here) {
+            for ((f, &l0), &x) in next.iter_mut().zip(&*l0).zip(from) {
                 *f = at.dt.mul_add(half.mul_add(l0, *f), x);
             }
-            here.copy_from_slice(next);
+            if k + 1 < self.times {
+                here.copy_from_slice(next);
+            }
         }
     }
 

@@ -1,5 +1,6 @@
 //! Stirling's interpolation: central differences of second order.
 
+use super::axes::lay_points;
 use super::pairs::evaluate;
 use super::{Rule, RuleError, Shape, Spread};
 use crate::model::{At, Map};
@@ -58,14 +59,9 @@ impl Rule for CentralDifference {
         scratch: &mut [T],
     ) {
         let n = mean.len();
-        let eta = T::of(self.eta);
         let eta2 = self.eta * self.eta;
-        let offsets = |i: usize, steps: &mut [T]| {
-            for (step, &s) in steps.iter_mut().zip(&factor[i * n..]) {
-                *step = eta * s;
-            }
-        };
-        let images = evaluate(g, at, mean, n, true, offsets, scratch);
+        let lay = |x: &mut [T], points: usize| lay_points(x, points, mean, factor, self.eta);
+        let images = evaluate(g, at, n, n, true, lay, scratch);
         let (odd, half_bend) = (T::of(0.5 / self.eta), T::of(0.5 / eta2));
         let even = T::of(Real::sqrt(eta2 - 1.0) / (2.0 * eta2));
         for i in 0..g.outputs() {

@@ -5,6 +5,7 @@
 //! its weighted-centred image times the unit points and E what that leaves; the image's X is then [S 0] for every
 //! rule, and no deviation of the state is ever formed.
 
+mod axes;
 mod central_difference;
 mod cubature3;
 mod cubature5;
@@ -24,7 +25,7 @@ pub use points::{Pairs, PointRule};
 pub use taylor::Taylor;
 pub use unscented::Unscented;
 
-use crate::kernels::plus_magnitudes;
+use crate::kernels::{outlined, plus_magnitudes};
 use crate::model::{At, Map, SLACK};
 use crate::scalar::{Mask, Real, Shown};
 
@@ -59,21 +60,30 @@ impl<T: Real> Spread<'_, T> {
     /// The first component, if any, that is not finite in every lane; `columns` = n + plus.
     #[inline(always)]
     pub fn not_finite(&self, columns: usize) -> Option<usize> {
-        for (i, (&mean, row)) in self.mean.iter().zip(self.dev.chunks_exact(self.stride)).enumerate() {
-            let (quads, rest) = row[..columns].as_chunks::<4>();
-            let mut sums = [mean.abs(), T::zero(), T::zero(), T::zero()];
-            for quad in quads {
-                for k in 0..4 {
-                    sums[k] += quad[k].abs();
-                }
-            }
-            let sum = plus_magnitudes((sums[0] + sums[1]) + (sums[2] + sums[3]), rest);
-            if (!sum.finite()).all() {
-                return Some(i);
+        first_wild(self.mean, self.dev, self.stride, columns)
+    }
+}
+
+outlined! {
+    fn first_wild(mean: &[T], dev: &[T], stride: usize, columns: usize) -> Option<usize> = first_wild_row
+}
+
+#[inline(always)]
+fn first_wild_row<T: Real>(mean: &[T], dev: &[T], stride: usize, columns: usize) -> Option<usize> {
+    for (i, (&mean, row)) in mean.iter().zip(dev.chunks_exact(stride)).enumerate() {
+        let (quads, rest) = row[..columns].as_chunks::<4>();
+        let mut sums = [mean.abs(), T::zero(), T::zero(), T::zero()];
+        for quad in quads {
+            for k in 0..4 {
+                sums[k] += quad[k].abs();
             }
         }
-        None
+        let sum = plus_magnitudes((sums[0] + sums[1]) + (sums[2] + sums[3]), rest);
+        if (!sum.finite()).all() {
+            return Some(i);
+        }
     }
+    None
 }
 
 /// A rule: plain data, its options and nothing else.

@@ -22,35 +22,27 @@ impl<T: Real> Images<'_, T> {
     }
 }
 
-/// Evaluates `g` at m ± `offset(i, l)`, l = 0…pairs, and at m if `centred` or if `g` has an angle; then moves every
-/// image of an angle once to the reference g(m) (docs/algorithms.md §5).
+/// Evaluates `g` at the points that `lay` writes: m + step and m − step of each pair in rows of the length that it is told,
+/// m behind them; at m only if `centred` or if `g` has an angle. Then moves every image of an angle once to the reference
+/// g(m) (docs/algorithms.md §5).
 #[inline(always)]
 pub(super) fn evaluate<'a, T: Real, G: Map>(
     g: &G,
     at: &At<T>,
-    mean: &[T],
+    n: usize,
     pairs: usize,
     centred: bool,
-    offsets: impl Fn(usize, &mut [T]),
+    lay: impl FnOnce(&mut [T], usize),
     scratch: &'a mut [T],
 ) -> Images<'a, T> {
-    let (n, d) = (mean.len(), g.outputs());
+    let d = g.outputs();
     let has_angle = (0..d).any(|i| g.angle(i).is_some());
     let centred = centred || has_angle;
     let points = filled::<T, G>(g, 2 * pairs + usize::from(centred));
     let skip = misaligned(scratch);
     let (x, rest) = scratch[skip..].split_at_mut(n * points);
     let (y, rest) = rest.split_at_mut(d * points);
-    for (i, (row, &m)) in x.chunks_exact_mut(points).zip(mean).enumerate() {
-        let (plus, rest) = row.split_at_mut(pairs);
-        let (minus, centre) = rest.split_at_mut(pairs);
-        offsets(i, plus);
-        for (plus, minus) in plus.iter_mut().zip(minus) {
-            let step = *plus;
-            (*plus, *minus) = (m + step, m - step);
-        }
-        centre.fill(m);
-    }
+    lay(x, points);
     evaluate_side_by_side(g, at, points, x, y, rest);
     for i in 0..d {
         if let Some(period) = g.angle(i) {

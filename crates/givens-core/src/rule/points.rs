@@ -1,6 +1,6 @@
 //! The rules made of weighted points: their unit points are data, and all of them share this spread.
 
-use super::pairs::evaluate;
+use super::axes::Axes;
 use super::table::from_table;
 use super::{Rule, RuleError, Shape, Spread};
 use crate::model::{At, Map};
@@ -135,77 +135,11 @@ impl<R: PointRule> Rule for R {
         let centre = self.centre(n);
         match self.pairs(n) {
             Pairs::Axes { radius2, bend } => {
-                along_axes(radius2, bend, centre.is_some(), g, at, mean, factor, out, scratch);
+                Axes { radius2, bend, centred: centre.is_some() }.spread(g, at, mean, factor, out, scratch);
             }
             Pairs::Table { count, negative } => {
                 from_table(table, count, negative, centre, g, at, mean, factor, out, scratch);
             }
         }
     }
-}
-
-/// D_i = (y₊ − y₋)/(2 radius), E_i = (δ_i − δ̄)/radius with δ_i = (y₊ + y₋)/2 − y₀ and δ̄ the mean of all δ_i, and one
-/// column √|bend| b with b = ȳ − y₀ = n δ̄/radius².
-///
-/// That is the centre's column and the deviations (y − ȳ) rearranged, so that weights of opposite sign do not meet:
-/// Σ (δ_i − b)²/radius² + w^c₀ b² = Σ (δ_i − δ̄)²/radius² + bend b². Only a negative `bend` needs a downdate, and small
-/// α do not cancel.
-#[inline(always)]
-fn along_axes<T: Real, G: Map>(
-    radius2: f64,
-    bend: f64,
-    centred: bool,
-    g: &G,
-    at: &At<T>,
-    mean: &[T],
-    factor: &[T],
-    out: &mut Spread<T>,
-    scratch: &mut [T],
-) {
-    let (n, radius) = (mean.len(), Real::sqrt(radius2));
-    let rho = T::of(radius);
-    let offsets = |i: usize, steps: &mut [T]| {
-        for (step, &s) in steps.iter_mut().zip(&factor[i * n..]) {
-            *step = rho * s;
-        }
-    };
-    let images = evaluate(g, at, mean, n, centred, offsets, scratch);
-    // without a centre, n/radius² = 1
-    let shift = if centred { n as f64 / radius2 } else { 1.0 };
-    let (share, shift) = (T::of(1.0 / n as f64), T::of(shift));
-    let (odd, even) = (T::of(0.5 / radius), T::of(1.0 / radius));
-    let curvature = T::of(Real::sqrt(Real::abs(bend)));
-    for i in 0..g.outputs() {
-        let (plus, minus, at_mean) = images.row(i);
-        // a component without spread must have no deviation, not one of rounding, which would pass for a direction
-        let near = if centred { at_mean.unwrap_or(plus[0]) } else { plus[0] };
-        let mut sum = T::zero();
-        for (&p, &m) in plus.iter().zip(minus) {
-            sum += middle(p, m, near);
-        }
-        let average = share * sum;
-        let row = &mut out.dev[i * out.stride..(i + 1) * out.stride];
-        for l in 0..n {
-            row[l] = odd * (plus[l] - minus[l]);
-        }
-        let b = shift * average;
-        out.mean[i] = near + b;
-        if out.stride == n {
-            continue;
-        }
-        for l in 0..n {
-            row[n + l] = even * (middle(plus[l], minus[l], near) - average);
-        }
-        if bend > 0.0 {
-            row[2 * n] = curvature * b;
-        } else if bend < 0.0 {
-            out.minus[i] = curvature * b;
-        }
-    }
-}
-
-/// Halfway between two images, seen from a third: no rounding where all are equal.
-#[inline(always)]
-fn middle<T: Real>(plus: T, minus: T, near: T) -> T {
-    T::of(0.5) * ((plus - near) + (minus - near))
 }

@@ -23,15 +23,24 @@ pub(super) fn from_table<T: Real, G: Map>(
     let n = mean.len();
     let (weights, rest) = table.split_at(count);
     let (scales, nodes) = rest.split_at(count);
-    let offsets = |i: usize, steps: &mut [T]| {
-        steps.fill(T::zero());
-        for (&s, xi) in factor[i * n..=i * n + i].iter().zip(nodes.chunks_exact(count)) {
-            for (step, &xi) in steps.iter_mut().zip(xi) {
-                *step = s.mul_add(xi, *step);
+    let lay = |x: &mut [T], points: usize| {
+        for (i, (row, &m)) in x.chunks_exact_mut(points).zip(mean).enumerate() {
+            let (plus, rest) = row.split_at_mut(count);
+            let (minus, centre) = rest.split_at_mut(count);
+            plus.fill(T::zero());
+            for (&s, xi) in factor[i * n..=i * n + i].iter().zip(nodes.chunks_exact(count)) {
+                for (step, &xi) in plus.iter_mut().zip(xi) {
+                    *step = s.mul_add(xi, *step);
+                }
             }
+            for (plus, minus) in plus.iter_mut().zip(minus) {
+                let step = *plus;
+                (*plus, *minus) = (m + step, m - step);
+            }
+            centre.fill(m);
         }
     };
-    let images = evaluate(g, at, mean, count, centre.is_some(), offsets, scratch);
+    let images = evaluate(g, at, n, count, centre.is_some(), lay, scratch);
     let half = T::of(0.5);
     let positive = count - negative;
     let minus_columns = 2 * negative + usize::from(centre.is_some_and(|weight| weight < 0.0));

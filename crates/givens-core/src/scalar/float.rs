@@ -1,6 +1,6 @@
 //! `f64` and `f32`: the platform's functions with `std`, libm's without.
 
-use super::Real;
+use super::{Inside, NARROW, Real};
 
 /// One elementary function of the platform, or libm's of the same name.
 macro_rules! elementary {
@@ -20,6 +20,10 @@ macro_rules! float {
             type Mask = bool;
             const EPSILON: f64 = $float::EPSILON as f64;
 
+            #[inline(always)]
+            fn vectorised<W: Inside>(kernel: W) -> W::Output {
+                NARROW.vectorised(kernel)
+            }
             #[inline(always)]
             #[allow(clippy::cast_lossless)]
             fn of(value: f64) -> $float {

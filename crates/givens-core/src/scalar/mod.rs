@@ -94,6 +94,13 @@ pub trait Real:
         inside(work)
     }
 
+    /// The same for a kernel, for whose loops over plain floats the compiler may use the vectors of the machine. The numbers
+    /// are those that it gives without.
+    #[inline(always)]
+    fn vectorised<W: Inside>(kernel: W) -> W::Output {
+        Self::within(kernel)
+    }
+
     /// The constant `value`, in every lane and without derivative.
     fn of(value: f64) -> Self;
     /// The value of the first lane, without derivative.

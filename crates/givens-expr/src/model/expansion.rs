@@ -62,8 +62,7 @@ impl Expansion {
 
     /// Scalars of scratch for `points` points.
     pub fn scratch_len(&self, points: usize) -> usize {
-        let own = self.program.scratch_len(points).max(self.still.scratch_len(points));
-        self.program.outputs() * points + own
+        self.program.scratch_len(points).max(self.still.scratch_len(points))
     }
 
     /// All points at once, component by component; without Lf if it is empty.
@@ -75,12 +74,8 @@ impl Expansion {
         scratch: &mut [T],
     ) {
         let program = if lf.is_empty() { &self.still } else { &self.program };
-        let (results, scratch) = scratch.split_at_mut(program.outputs() * points);
-        program.eval(inputs, points, results, scratch);
         let all = self.states * points;
-        f[..all].copy_from_slice(&results[..all]);
-        l0[..all].copy_from_slice(&results[all..2 * all]);
-        lf[..results.len() - 2 * all].copy_from_slice(&results[2 * all..]);
+        program.eval_apart(inputs, points, [&mut f[..all], &mut l0[..all], lf], scratch);
     }
 }
 

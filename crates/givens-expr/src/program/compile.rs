@@ -7,7 +7,7 @@ use crate::operation::{Binary, Unary};
 
 use super::fuse::fuse;
 use super::lifetime::{Rows, Step};
-use super::{Code, Extent, Given, Place, Program};
+use super::{Code, Extent, Program};
 
 impl Program {
     /// Compiles expressions, which may share parts; equal parts are worked out once.
@@ -16,77 +16,44 @@ impl Program {
     /// The graph is full.
     pub fn compile(graph: &Graph, outputs: &[Node]) -> Result<Program, GraphError> {
         graph.check()?;
-        let order = graph.reachable(outputs);
+        let outputs: Vec<Node> = outputs.iter().map(|&node| graph.own(node)).collect();
+        let order = graph.reachable(&outputs);
         let (extent, moving) = survey(graph, &order);
         let (row_steps, scalar_steps) = steps(graph, &order, &moving);
         let row_steps = fuse(row_steps, &outputs.iter().copied().collect(), &moving);
 
-        let read: HashSet<Node> =
-            row_steps.iter().chain(&scalar_steps).flat_map(|step| step.args.iter().copied()).collect();
-        let read_by_rows = row_steps.iter().flat_map(|step| step.args.iter().copied());
-        let kept = read_by_rows.chain(outputs.iter().copied());
-        let mut scalars = Rows::new(&scalar_steps, kept, HashMap::new());
-        let (mut constants, mut loads) = (Vec::new(), Vec::new());
-        for &node in order.iter().filter(|node| read.contains(node) && !moving.contains(node)) {
+        let mut rows = Rows::new(&row_steps, outputs.iter().copied());
+        let lent: Vec<Node> =
+            order.iter().copied().filter(|node| !moving.contains(node) && rows.wants(*node)).collect();
+        let mut scalars = Rows::new(&scalar_steps, lent.iter().copied());
+        let (mut constants, mut loads, mut states) = (Vec::new(), Vec::new(), Vec::new());
+        for &node in &order {
             match graph.op(node) {
-                Op::Constant(bits) => constants.push((f64::from_bits(bits), scalars.begin(node))),
-                Op::Input(input) => loads.push((input, scalars.begin(node))),
+                Op::Constant(bits) if scalars.wants(node) => {
+                    constants.push((f64::from_bits(bits), scalars.begin(node)));
+                }
+                Op::Input(Input::State(i)) if rows.wants(node) => states.push((i, rows.begin(node))),
+                Op::Input(input) if scalars.wants(node) => loads.push((input, scalars.begin(node))),
                 _ => {}
             }
         }
         let scalar_code = scalars.instructions(&scalar_steps);
-        let mut places: HashMap<Node, Place> =
-            scalars.places.iter().map(|(&node, &at)| (node, at.lent())).collect();
-
-        let computed: HashSet<Node> =
-            row_steps.iter().flat_map(|step| step.results.iter().copied()).collect();
-        let mut given = Vec::new();
-        for (i, &node) in outputs.iter().enumerate() {
-            let row = i as u32;
-            match (graph.op(node), places.get(&node)) {
-                (Op::Constant(bits), _) => given.push((row, Given::Constant(f64::from_bits(bits)))),
-                (Op::Input(input), _) => given.push((row, Given::Input(input))),
-                (_, Some(&Place::Scalar(scalar))) => given.push((row, Given::Scalar(scalar))),
-                (_, Some(&Place::Output(first))) => given.push((row, Given::Output(first))),
-                _ if computed.contains(&node) => {
-                    places.insert(node, Place::Output(row));
-                }
-                _ => given.push((row, Given::Constant(f64::NAN))),
-            }
-        }
-
-        let mut rows = Rows::new(&row_steps, core::iter::empty(), places);
-        let mut states = Vec::new();
-        for &node in order.iter().filter(|node| read.contains(node)) {
-            if let Op::Input(Input::State(i)) = graph.op(node) {
-                states.push((i, rows.begin(node)));
-            }
-        }
+        // a block is laid out once and then used for all points: what is lent to it keeps its row
+        rows.keep(&lent);
+        let lent = lent.iter().map(|&node| (scalars.place(node), rows.begin(node))).collect();
         let code = rows.instructions(&row_steps);
-        let (scalars, registers) = (scalars.count as usize, rows.count as usize);
-        let outputs = outputs.len();
         Ok(Program {
-            outputs,
             extent,
             constants,
             loads,
             scalar_code,
-            scalars,
+            scalars: scalars.count as usize,
+            lent,
             states,
             code,
-            registers,
-            given,
+            rows: rows.count as usize,
+            outputs: outputs.iter().map(|&node| rows.place(node)).collect(),
         })
-    }
-}
-
-impl Place {
-    /// The place as the section of rows sees it.
-    fn lent(self) -> Place {
-        match self {
-            Place::Register(row) => Place::Scalar(row),
-            other => other,
-        }
     }
 }
 

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use crate::graph::Node;
 
-use super::{Code, Instruction, Place};
+use super::{Code, Instruction};
 
 /// An operation of a section before its rows are chosen.
 pub(super) struct Step {
@@ -13,20 +13,19 @@ pub(super) struct Step {
     pub results: Vec<Node>,
 }
 
-/// The rows of a section, and the place of each of its values.
+/// The rows of a section, and the row of each of its values.
 pub(super) struct Rows {
-    /// The places of values that need no row, then also of those that have one.
-    pub places: HashMap<Node, Place>,
+    places: HashMap<Node, u32>,
     /// Rows in use at the same time, at most.
     pub count: u32,
     free: Vec<u32>,
-    /// For each value with a row, the last step that reads it; none: it is kept.
+    /// For each value that is read, the last step that reads it; none: it is kept.
     last_use: HashMap<Node, Option<usize>>,
 }
 
 impl Rows {
-    /// `places` holds the values that stand elsewhere, `kept` those whose row is never used again.
-    pub fn new(steps: &[Step], kept: impl Iterator<Item = Node>, places: HashMap<Node, Place>) -> Self {
+    /// `kept` are the values whose row is never used again.
+    pub fn new(steps: &[Step], kept: impl Iterator<Item = Node>) -> Self {
         let mut last_use = HashMap::new();
         for (i, step) in steps.iter().enumerate() {
             for &node in &step.args {
@@ -36,7 +35,17 @@ impl Rows {
         for node in kept {
             last_use.insert(node, None);
         }
-        Self { places, count: 0, free: Vec::new(), last_use }
+        Self { places: HashMap::new(), count: 0, free: Vec::new(), last_use }
+    }
+
+    /// Never uses the rows of these again.
+    pub fn keep(&mut self, nodes: &[Node]) {
+        self.last_use.extend(nodes.iter().map(|&node| (node, None)));
+    }
+
+    /// Whether a value is read in the section, or kept.
+    pub fn wants(&self, node: Node) -> bool {
+        self.last_use.contains_key(&node)
     }
 
     /// Gives a value its row.
@@ -45,17 +54,17 @@ impl Rows {
             self.count += 1;
             self.count - 1
         });
-        self.places.insert(node, Place::Register(row));
+        self.places.insert(node, row);
         row
     }
 
-    /// The place of a value.
-    pub fn place(&self, node: Node) -> Place {
-        self.places.get(&node).copied().unwrap_or(Place::Register(0))
+    /// The row of a value.
+    pub fn place(&self, node: Node) -> u32 {
+        self.places.get(&node).copied().unwrap_or_default()
     }
 
     /// Chooses the rows of all steps in order. A result may take the row of an operand that is read for the last
-    /// time: every point is read before it is written.
+    /// time: all operands are read before a result is written.
     pub fn instructions(&mut self, steps: &[Step]) -> Vec<Instruction> {
         let mut code = Vec::with_capacity(steps.len());
         for (i, step) in steps.iter().enumerate() {
@@ -66,9 +75,7 @@ impl Rows {
                 }
             }
             for &node in &step.results {
-                if !self.places.contains_key(&node) {
-                    self.begin(node);
-                }
+                self.begin(node);
             }
             let results = places(step.results.iter().map(|&node| self.place(node)));
             code.push(Instruction { code: step.code, args, results });
@@ -78,14 +85,12 @@ impl Rows {
 
     /// Frees the row of a value that is no longer needed.
     fn end(&mut self, node: Node) {
-        if let Place::Register(row) = self.place(node) {
-            self.free.push(row);
-        }
+        self.free.extend(self.places.get(&node));
     }
 }
 
-fn places<const N: usize>(found: impl Iterator<Item = Place>) -> [Place; N] {
-    let mut places = [Place::Register(0); N];
+fn places<const N: usize>(found: impl Iterator<Item = u32>) -> [u32; N] {
+    let mut places = [0; N];
     places.iter_mut().zip(found).for_each(|(place, found)| *place = found);
     places
 }

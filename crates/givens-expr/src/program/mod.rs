@@ -1,12 +1,11 @@
 //! Expressions as a program: bytecode that evaluates all points of a batch at once.
 //!
-//! What does not depend on the state is worked out once, in a section of its own with rows of length one; the rest
-//! runs on rows of `points` values, one dispatch for each operation and row.
+//! What does not depend on the state is worked out once, in a section of its own. The rest runs over blocks of a few points
+//! whose number the compiler knows, one dispatch for each operation and block.
 
 mod compile;
 mod fuse;
 mod lifetime;
-mod loops;
 mod run;
 
 use givens_core::model::At;
@@ -14,17 +13,6 @@ use givens_core::scalar::Real;
 
 use crate::graph::Input;
 use crate::operation::{Binary, Unary};
-
-/// Where a value stands while a program runs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Place {
-    /// A register: a row of the section's own memory.
-    Register(u32),
-    /// A row of the result.
-    Output(u32),
-    /// A value of the scalar section, the same for all points.
-    Scalar(u32),
-}
 
 /// What an instruction computes.
 #[derive(Clone, Copy, Debug)]
@@ -50,22 +38,12 @@ enum Sum {
     From,
 }
 
-/// One operation: operands and results beyond those that the code has are not read.
+/// One operation, and the rows of its operands and results; those beyond what the code has are not read.
 #[derive(Clone, Copy, Debug)]
 struct Instruction {
     code: Code,
-    args: [Place; 3],
-    results: [Place; 2],
-}
-
-/// A result that no instruction computes in its place.
-#[derive(Clone, Copy, Debug)]
-enum Given {
-    Constant(f64),
-    Input(Input),
-    Scalar(u32),
-    /// The same as another result.
-    Output(u32),
+    args: [u32; 3],
+    results: [u32; 2],
 }
 
 /// How many components of each kind the inputs must bring.
@@ -94,18 +72,20 @@ struct Extent {
 /// ```
 #[derive(Clone, Debug)]
 pub struct Program {
-    outputs: usize,
     extent: Extent,
     /// Constants and inputs of the scalar section, and the scalars that hold them.
     constants: Vec<(f64, u32)>,
     loads: Vec<(Input, u32)>,
     scalar_code: Vec<Instruction>,
     scalars: usize,
-    /// Components of the state and the registers that hold them at first.
+    /// Scalars that are read at every point, and the rows that hold them.
+    lent: Vec<(u32, u32)>,
+    /// Components of the state, and the rows that hold them at first.
     states: Vec<(u32, u32)>,
     code: Vec<Instruction>,
-    registers: usize,
-    given: Vec<(u32, Given)>,
+    rows: usize,
+    /// The rows of the results.
+    outputs: Vec<u32>,
 }
 
 /// What a program is evaluated at.
@@ -136,12 +116,12 @@ impl<'a, T: Real> Inputs<'a, T> {
 impl Program {
     /// Number of expressions.
     pub fn outputs(&self) -> usize {
-        self.outputs
+        self.outputs.len()
     }
 
     /// Scalars of scratch that [`eval`](Program::eval) needs for `points` points.
     pub fn scratch_len(&self, points: usize) -> usize {
-        self.scalars.saturating_add(self.registers.saturating_mul(points))
+        self.scalars.saturating_add(self.rows.saturating_mul(points.clamp(1, run::BLOCK)))
     }
 
     /// Number of operations for a batch, and for each of its points.
@@ -151,7 +131,7 @@ impl Program {
 
     /// The values at one point, in memory of their own: for what is done once.
     pub fn values(&self, inputs: &Inputs<'_, f64>) -> Vec<f64> {
-        let (mut out, mut scratch) = (vec![0.0; self.outputs], vec![0.0; self.scratch_len(1)]);
+        let (mut out, mut scratch) = (vec![0.0; self.outputs.len()], vec![0.0; self.scratch_len(1)]);
         self.eval(inputs, 1, &mut out, &mut scratch);
         out
     }

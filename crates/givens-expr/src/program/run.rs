@@ -1,14 +1,14 @@
 //! The machine that runs a program.
 
-use core::cell::Cell;
-
 use givens_core::scalar::{Inside, Real};
 
 use crate::graph::Input;
 use crate::operation::{Binary, Unary, choose};
 
-use super::loops::{BLOCK, map, read, three, two, write, zip, zip3};
-use super::{Code, Given, Inputs, Instruction, Place, Program, Sum};
+use super::{Code, Inputs, Instruction, Program, Sum};
+
+/// Points of a large block.
+pub(super) const BLOCK: usize = 4;
 
 impl Program {
     /// Evaluates all expressions at `points` points: `inputs.x` is n × `points` and `out` outputs × `points`,
@@ -17,45 +17,92 @@ impl Program {
     ///
     /// Inputs or memory that are shorter than the program needs give not-a-number throughout.
     pub fn eval<T: Real>(&self, inputs: &Inputs<'_, T>, points: usize, out: &mut [T], scratch: &mut [T]) {
-        let fits = out.len() >= self.outputs.saturating_mul(points)
+        self.eval_apart(inputs, points, [out], scratch);
+    }
+
+    /// The same with the results in several places, one after the other; each takes what it has room for.
+    pub(crate) fn eval_apart<T: Real, const K: usize>(
+        &self,
+        inputs: &Inputs<'_, T>,
+        points: usize,
+        out: [&mut [T]; K],
+        scratch: &mut [T],
+    ) {
+        let room = out.iter().fold(0, |room: usize, out| room.saturating_add(out.len()));
+        let fits = room >= self.outputs.len().saturating_mul(points)
             && scratch.len() >= self.scratch_len(points)
             && inputs.x.len() >= self.extent.states.saturating_mul(points)
             && inputs.at.u.len() >= self.extent.controls
             && inputs.at.p.len() >= self.extent.parameters
             && inputs.z.len() >= self.extent.measures;
         if !fits {
-            out.fill(T::of(f64::NAN));
-            return;
+            for out in out {
+                out.fill(T::of(f64::NAN));
+            }
+        } else if points > 0 {
+            T::within(Evaluation { program: self, inputs, points, out, scratch });
         }
-        let (scalars, rows) = scratch.split_at_mut(self.scalars);
-        for &(value, scalar) in &self.constants {
+    }
+}
+
+/// A program at work, in a function of its own: packs need their instructions there.
+struct Evaluation<'e, T, const K: usize> {
+    program: &'e Program,
+    inputs: &'e Inputs<'e, T>,
+    points: usize,
+    out: [&'e mut [T]; K],
+    scratch: &'e mut [T],
+}
+
+impl<T: Real, const K: usize> Inside for Evaluation<'_, T, K> {
+    type Output = ();
+
+    #[inline(always)]
+    fn go(mut self) {
+        let Program { constants, loads, scalar_code, scalars, .. } = self.program;
+        let (scalars, memory) = core::mem::take(&mut self.scratch).split_at_mut(*scalars);
+        for &(value, scalar) in constants {
             scalars[scalar as usize] = T::of(value);
         }
-        for &(input, scalar) in &self.loads {
-            scalars[scalar as usize] = uniform(inputs, input);
+        for &(input, scalar) in loads {
+            scalars[scalar as usize] = uniform(self.inputs, input);
         }
-        for &(state, row) in &self.states {
-            let (from, to) = (state as usize * points, row as usize * points);
-            rows[to..to + points].copy_from_slice(&inputs.x[from..from + points]);
+        run::<T, 1>(scalar_code, scalars.as_chunks_mut().0);
+        let mut done = 0;
+        self.blocks::<BLOCK>(&mut done, scalars, memory);
+        self.blocks::<2>(&mut done, scalars, memory);
+        self.blocks::<1>(&mut done, scalars, memory);
+    }
+}
+
+impl<T: Real, const K: usize> Evaluation<'_, T, K> {
+    /// As many whole blocks of `B` points as are left.
+    #[inline(always)]
+    fn blocks<const B: usize>(&mut self, done: &mut usize, scalars: &[T], memory: &mut [T]) {
+        let Self { program, inputs, points, out, .. } = self;
+        if *points - *done < B {
+            return;
         }
-        let scalars = cells(scalars);
-        Machine { rows: scalars, out: &[], scalars: &[], width: 1 }.run(&self.scalar_code);
-        Machine { rows: cells(rows), out: cells(out), scalars, width: points }.run(&self.code);
-        for &(row, given) in &self.given {
-            let row = row as usize * points;
-            match given {
-                Given::Constant(value) => out[row..row + points].fill(T::of(value)),
-                Given::Input(Input::State(i)) => {
-                    let from = i as usize * points;
-                    out[row..row + points].copy_from_slice(&inputs.x[from..from + points]);
-                }
-                Given::Input(input) => out[row..row + points].fill(uniform(inputs, input)),
-                Given::Scalar(i) => out[row..row + points].fill(scalars[i as usize].get()),
-                Given::Output(first) => {
-                    let from = first as usize * points;
-                    out.copy_within(from..from + points, row);
+        let rows = memory.as_chunks_mut::<B>().0;
+        for &(scalar, row) in &program.lent {
+            rows[row as usize] = [scalars[scalar as usize]; B];
+        }
+        while *points - *done >= B {
+            for &(state, row) in &program.states {
+                if let Some(x) = inputs.x[state as usize * *points + *done..].first_chunk() {
+                    rows[row as usize] = *x;
                 }
             }
+            run(&program.code, rows);
+            let mut results = program.outputs.iter();
+            for out in out.iter_mut() {
+                for (out, &row) in out.chunks_exact_mut(*points).zip(results.by_ref()) {
+                    if let Some(out) = out[*done..].first_chunk_mut() {
+                        *out = rows[row as usize];
+                    }
+                }
+            }
+            *done += B;
         }
     }
 }
@@ -72,150 +119,70 @@ fn uniform<T: Real>(inputs: &Inputs<'_, T>, input: Input) -> T {
     }
 }
 
-/// Memory in which a row may be read and written at once.
-fn cells<T>(memory: &mut [T]) -> &[Cell<T>] {
-    Cell::from_mut(memory).as_slice_of_cells()
-}
-
-/// A section at work: its rows, those of the result, and the scalars, which it reads only.
-struct Machine<'m, T> {
-    rows: &'m [Cell<T>],
-    out: &'m [Cell<T>],
-    scalars: &'m [Cell<T>],
-    width: usize,
-}
-
-/// An operand of an instruction.
-enum Source<'m, T> {
-    Row(&'m [Cell<T>]),
-    Same(T),
-}
-
-impl<T: Real> Source<'_, T> {
-    #[inline(always)]
-    fn get(&self, i: usize) -> T {
-        match self {
-            Source::Row(row) => row[i].get(),
-            Source::Same(value) => *value,
+/// An operation at all points of a block, by an expression of its operands. It is a macro, for a closure would not always be
+/// inlined.
+macro_rules! at_each {
+    ($rows:ident, $instruction:ident, |$x:ident $(, $more:ident)*| $of:expr) => {{
+        let [$x $(, $more)*, ..] = $instruction.args;
+        let $x = $rows[$x as usize];
+        $(let $more = $rows[$more as usize];)*
+        let mut values = $x;
+        for k in 0..B {
+            let $x = $x[k];
+            $(let $more = $more[k];)*
+            values[k] = $of;
         }
-    }
+        $rows[$instruction.results[0] as usize] = values;
+    }};
 }
 
-/// The instructions of a section, done in one piece: packs need them in a function of their own.
-struct Section<'s, 'm, T> {
-    machine: Machine<'m, T>,
-    code: &'s [Instruction],
-}
-
-impl<T: Real> Inside for Section<'_, '_, T> {
-    type Output = ();
-    #[inline(always)]
-    fn go(self) {
-        for instruction in self.code {
-            self.machine.step(instruction);
-        }
-    }
-}
-
-impl<'m, T: Real> Machine<'m, T> {
-    fn run(self, code: &[Instruction]) {
-        T::within(Section { machine: self, code });
-    }
-
-    /// One loop for each operation, so that the operation is not chosen again for each point.
-    #[inline(always)]
-    fn step(&self, instruction: &Instruction) {
+/// The code of a section over its rows, of `B` points each.
+#[inline(always)]
+fn run<T: Real, const B: usize>(code: &[Instruction], rows: &mut [[T; B]]) {
+    for instruction in code {
         match instruction.code {
-            Code::Unary(op) => self.unary(op, instruction),
-            Code::Binary(op) => self.binary(op, instruction),
-            Code::Product(Sum::Plus) => three!(self, instruction, |a, b, c| a.mul_add(b, c)),
-            Code::Product(Sum::Minus) => three!(self, instruction, |a, b, c| a.mul_add(b, -c)),
-            Code::Product(Sum::From) => three!(self, instruction, |a, b, c| (-a).mul_add(b, c)),
-            Code::Power(e) => {
-                map!(self.row(instruction.results[0]), self.row(instruction.args[0]), |a| a.powi(e));
+            Code::Unary(op) => unary(op, instruction, rows),
+            Code::Binary(op) => binary(op, instruction, rows),
+            Code::Product(Sum::Plus) => at_each!(rows, instruction, |a, b, c| a.mul_add(b, c)),
+            Code::Product(Sum::Minus) => at_each!(rows, instruction, |a, b, c| a.mul_add(b, -c)),
+            Code::Product(Sum::From) => at_each!(rows, instruction, |a, b, c| (-a).mul_add(b, c)),
+            Code::Power(e) => at_each!(rows, instruction, |a| a.powi(e)),
+            Code::Select => at_each!(rows, instruction, |c, a, b| choose(c, a, b)),
+            Code::SinCos => {
+                let ([a, ..], [sine, cosine]) = (instruction.args, instruction.results);
+                for k in 0..B {
+                    let (s, c) = rows[a as usize][k].sin_cos();
+                    (rows[sine as usize][k], rows[cosine as usize][k]) = (s, c);
+                }
             }
-            Code::Select => self.select(instruction),
-            Code::SinCos => self.sin_cos(instruction),
         }
     }
+}
 
-    #[inline(always)]
-    fn row(&self, place: Place) -> &'m [Cell<T>] {
-        let (rows, i) = match place {
-            Place::Output(i) => (self.out, i),
-            Place::Register(i) | Place::Scalar(i) => (self.rows, i),
+#[inline(always)]
+fn unary<T: Real, const B: usize>(op: Unary, instruction: &Instruction, rows: &mut [[T; B]]) {
+    macro_rules! each {
+        ($($op:ident)*) => {
+            match op {
+                $(Unary::$op => at_each!(rows, instruction, |a| Unary::$op.apply(a)),)*
+            }
         };
-        &rows[i as usize * self.width..][..self.width]
     }
+    each!(
+        Neg Abs Sign Floor Sqrt Not Exp Log Log10 Sin Cos Tan Asin Acos Atan Sinh Cosh Tanh Erf Erfc
+    );
+}
 
-    #[inline(always)]
-    fn source(&self, place: Place) -> Source<'m, T> {
-        match place {
-            Place::Scalar(i) => Source::Same(self.scalars[i as usize].get()),
-            Place::Register(_) | Place::Output(_) => Source::Row(self.row(place)),
-        }
+#[inline(always)]
+fn binary<T: Real, const B: usize>(op: Binary, instruction: &Instruction, rows: &mut [[T; B]]) {
+    macro_rules! each {
+        ($($op:ident)*) => {
+            match op {
+                $(Binary::$op => at_each!(rows, instruction, |a, b| Binary::$op.apply(a, b)),)*
+            }
+        };
     }
-
-    #[inline(always)]
-    fn select(&self, instruction: &Instruction) {
-        let [c, a, b] = instruction.args;
-        let (c, a, b) = (self.source(c), self.source(a), self.source(b));
-        for (i, result) in self.row(instruction.results[0]).iter().enumerate() {
-            result.set(choose(c.get(i), a.get(i), b.get(i)));
-        }
-    }
-
-    #[inline(always)]
-    fn sin_cos(&self, instruction: &Instruction) {
-        let a = self.row(instruction.args[0]);
-        let [sine, cosine] = instruction.results;
-        let (sine, cosine) = (self.row(sine), self.row(cosine));
-        for ((a, sine), cosine) in a.iter().zip(sine).zip(cosine) {
-            let (s, c) = a.get().sin_cos();
-            sine.set(s);
-            cosine.set(c);
-        }
-    }
-
-    #[inline(always)]
-    fn unary(&self, op: Unary, instruction: &Instruction) {
-        let (result, a) = (self.row(instruction.results[0]), self.row(instruction.args[0]));
-        macro_rules! loops {
-            (quick $($quick:ident)*; slow $($slow:ident)*) => {
-                match op {
-                    $(Unary::$quick => map!(result, a, |a| Unary::$quick.apply(a)),)*
-                    $(Unary::$slow => {
-                        for (result, a) in result.iter().zip(a) {
-                            result.set(Unary::$slow.apply(a.get()));
-                        }
-                    })*
-                }
-            };
-        }
-        loops!(
-            quick Neg Abs Sign Floor Sqrt Not;
-            slow Exp Log Log10 Sin Cos Tan Asin Acos Atan Sinh Cosh Tanh Erf Erfc
-        );
-    }
-
-    #[inline(always)]
-    fn binary(&self, op: Binary, instruction: &Instruction) {
-        macro_rules! loops {
-            (quick $($quick:ident)*; slow $($slow:ident)*) => {
-                match op {
-                    $(Binary::$quick => two!(self, instruction, |a, b| Binary::$quick.apply(a, b)),)*
-                    $(Binary::$slow => {
-                        let (a, b) = (self.source(instruction.args[0]), self.source(instruction.args[1]));
-                        for (i, result) in self.row(instruction.results[0]).iter().enumerate() {
-                            result.set(Binary::$slow.apply(a.get(i), b.get(i)));
-                        }
-                    })*
-                }
-            };
-        }
-        loops!(
-            quick Add Sub Mul Div Min Max Less LessEqual Equal And Or Scale;
-            slow Pow Atan2 Hypot
-        );
-    }
+    each!(
+        Add Sub Mul Div Pow Atan2 Hypot Min Max Less LessEqual Equal And Or Scale
+    );
 }

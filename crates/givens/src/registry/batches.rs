@@ -16,9 +16,9 @@ impl Choice {
         tracks: &[Track<M, H>],
         batch: &Batch,
     ) -> Vec<Option<Outcome>> {
-        let models = Pointed::new(tracks.iter().map(|track| track.model), |model| AnyTransition(model));
+        let models = Pointed::new(tracks.iter().map(|track| track.model), |model| AnyTransition::new(model));
         let sensors =
-            Pointed::new(tracks.iter().map(|track| track.sensors), |sensors| AnyObservation(sensors));
+            Pointed::new(tracks.iter().map(|track| track.sensors), |sensors| AnyObservation::new(sensors));
         self.run_any_batch(&behind(tracks, &models, &sensors), batch)
     }
 
@@ -28,9 +28,9 @@ impl Choice {
         tracks: &[Track<M, H>],
         batch: &Batch,
     ) -> Vec<Option<Outcome>> {
-        let models = Pointed::new(tracks.iter().map(|track| track.model), |model| AnySde(model));
+        let models = Pointed::new(tracks.iter().map(|track| track.model), |model| AnySde::new(model));
         let sensors =
-            Pointed::new(tracks.iter().map(|track| track.sensors), |sensors| AnyObservation(sensors));
+            Pointed::new(tracks.iter().map(|track| track.sensors), |sensors| AnyObservation::new(sensors));
         self.run_any_batch_continuous(&behind(tracks, &models, &sensors), batch)
     }
 

@@ -20,7 +20,7 @@ impl Choice {
         at: &[f64],
     ) -> Outcome {
         let rows: Vec<Row> = rows.collect();
-        let (model, sensors) = (&AnyTransition(model), &AnyObservation(sensors));
+        let (model, sensors) = (&AnyTransition::new(model), &AnyObservation::new(sensors));
         self.run_any(Span { model, sensors, rows: &rows, t0, prior, goal, at })
     }
 
@@ -36,7 +36,7 @@ impl Choice {
         at: &[f64],
     ) -> Outcome {
         let rows: Vec<Row> = rows.collect();
-        let (model, sensors) = (&AnySde(model), &AnyObservation(sensors));
+        let (model, sensors) = (&AnySde::new(model), &AnyObservation::new(sensors));
         self.run_any_continuous(Span { model, sensors, rows: &rows, t0, prior, goal, at })
     }
 

@@ -22,7 +22,7 @@ impl Choice {
         draws: Draws,
     ) -> Result<Samples, Failure> {
         let rows: Vec<Row> = rows.collect();
-        let (model, sensors) = (&AnyTransition(model), &AnyObservation(sensors));
+        let (model, sensors) = (&AnyTransition::new(model), &AnyObservation::new(sensors));
         self.sample_any(Through { model, sensors, rows: &rows, t0, prior, draws })
     }
 
@@ -40,7 +40,7 @@ impl Choice {
         draws: Draws,
     ) -> Result<Samples, Failure> {
         let rows: Vec<Row> = rows.collect();
-        let (model, sensors) = (&AnySde(model), &AnyObservation(sensors));
+        let (model, sensors) = (&AnySde::new(model), &AnyObservation::new(sensors));
         self.sample_any_continuous(Through { model, sensors, rows: &rows, t0, prior, draws })
     }
 

@@ -1,7 +1,7 @@
 //! The Euler–Maruyama step: m⁺ = E[x + δ f], P⁺ = Cov[x + δ f] + δ E[G Gᵀ].
 
 use super::continuous::{Continuous, check_steps};
-use super::noise::{Stacked, check_spread, diffusion, finish, rate_scratch, stacked_scratch};
+use super::noise::{Stacked, diffusion, rate_scratch, stacked_scratch};
 use super::{Given, Plan, Stopped, TimeUpdate};
 use crate::filter::backward::Backward;
 use crate::filter::error::Fault;
@@ -10,7 +10,7 @@ use crate::filter::memory::{larger, take};
 use crate::filter::sizes::{ENDLESS, Sizes, fits};
 use crate::model::{At, Flow, Map, Sde, Varies};
 use crate::ode::{Steps, Work};
-use crate::rule::{Rule, Shape, Spread};
+use crate::rule::{Rule, Shape};
 use crate::scalar::Real;
 
 /// `euler-maruyama`: x + δ f(x) + G w, w ~ N(0, δ I), by the rule (2010 eq 11; docs/algorithms.md C8). G may depend on the
@@ -27,7 +27,7 @@ impl EulerMaruyama {
         if !fits(n, 1 + q, n + q + shape.plus + shape.minus + shape.points) {
             return ENDLESS;
         }
-        let step = stacked_scratch(n, q, q, n * (1 + q), shape, sizes.model, smoothing);
+        let step = n * q + stacked_scratch(n, q, q, n * (1 + q), shape, sizes.model, smoothing);
         larger(step, rate_scratch(n, q, controls + parameters))
     }
 }
@@ -75,20 +75,14 @@ impl<M: Sde> TimeUpdate<M> for EulerMaruyama {
         _: &mut Work,
         mut scratch: &mut [T],
     ) -> Result<T::Mask, Stopped> {
-        let Given { rule, table, model, ref at } = *given;
-        let (n, q, shape) = (belief.mean.len(), model.noises(), rule.shape(belief.mean.len()));
+        let Given { rule, table, model, ref at, .. } = *given;
+        let (n, q) = (belief.mean.len(), model.noises());
         let varies = model.diffusion_varies() == Varies::WithState;
         let map = Flow { model, step: true, diffusion: varies };
-        let (outputs, stride) = (map.outputs(), n + shape.plus);
-        let mean = take(&mut scratch, outputs);
-        let dev = take(&mut scratch, outputs * stride);
-        let minus = take(&mut scratch, outputs * shape.minus);
         let noise = take(&mut scratch, n * q);
-        let mut spread = Spread { mean, dev, stride, minus };
-        rule.spread(table, &map, at, belief.mean, belief.factor, &mut spread, scratch);
-        check_spread(&spread, n, q, shape.points)?;
+        let mut stacked = Stacked::spread((rule, table), &map, at, belief, [q, q], &mut scratch)?;
         if varies {
-            noise.copy_from_slice(&spread.mean[n..]);
+            noise.copy_from_slice(&stacked.mean[n..]);
         } else {
             diffusion(model, at, belief.mean, noise)?;
         }
@@ -96,9 +90,10 @@ impl<M: Sde> TimeUpdate<M> for EulerMaruyama {
         for g in &mut *noise {
             *g *= root;
         }
-        let entries = varies.then_some(root);
-        let lost = shape.minus;
-        let stacked = Stacked { spread, entries, q, noise, known: q, lost };
-        Ok(finish::<T, F>(stacked, belief, back, scratch)?)
+        stacked.known(noise, q);
+        if varies {
+            stacked.entries(q, root);
+        }
+        Ok(stacked.settle::<F>(belief, back, scratch)?)
     }
 }

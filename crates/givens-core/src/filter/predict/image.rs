@@ -158,7 +158,7 @@ impl<M: Sde, R: Rule> Image for ByRule<'_, M, R> {
         let minus = take(&mut scratch, outputs * lost);
         let mut spread = Spread { mean: average, dev, stride, minus };
         self.rule.spread(table, &map, at, mean, factor, &mut spread, scratch);
-        check_spread(&spread, n, q, shape.points)?;
+        check_spread(&spread, stride, [n, q], shape.points)?;
         out.velocity.copy_from_slice(&spread.mean[..n]);
         for (to, from) in out.dev.chunks_exact_mut(n).zip(spread.dev.chunks_exact(stride)) {
             to.copy_from_slice(&from[..n]);

@@ -1,7 +1,7 @@
 //! The Itô–Taylor step of order 1.5: the drift expanded, the rule over the expansion (2010 eq 25–27; 2012 eq 12).
 
 use super::continuous::{Continuous, check_steps};
-use super::noise::{Stacked, check_spread, diffusion_rate, finish, rate_scratch, stacked_scratch};
+use super::noise::{Stacked, diffusion_rate, rate_scratch, stacked_scratch};
 use super::{Given, Plan, Stopped, TimeUpdate};
 use crate::filter::backward::Backward;
 use crate::filter::error::Fault;
@@ -9,9 +9,11 @@ use crate::filter::form::{Belief, Form};
 use crate::filter::layout::Layout;
 use crate::filter::memory::{larger, take};
 use crate::filter::sizes::{ENDLESS, Sizes, countable, fits};
-use crate::model::{At, Expanded, Map, Sde, expanded_scratch, expansion_scratch, side_by_side_scratch};
+use crate::model::{
+    At, Expanded, Map, Sde, Varies, expanded_scratch, expansion_scratch, side_by_side_scratch,
+};
 use crate::ode::{Steps, Work};
-use crate::rule::{Rule, Shape, Spread};
+use crate::rule::{Rule, Shape};
 use crate::scalar::{LANES, Real};
 
 /// How Lf enters the noise of a step.
@@ -66,7 +68,7 @@ impl ItoTaylor {
         }
         let outputs = if matches!(self.variant, Variant::Full) { n * (1 + q) } else { n };
         let beside = larger(rate_scratch(n, q, controls + parameters), n + sizes.model);
-        3 * n * q + larger(stacked_scratch(n, q, 2 * q, outputs, shape, sizes.model, smoothing), beside)
+        4 * n * q + larger(stacked_scratch(n, q, 2 * q, outputs, shape, sizes.model, smoothing), beside)
     }
 }
 
@@ -119,13 +121,16 @@ impl<M: Sde> TimeUpdate<M> for ItoTaylor {
         _: &mut Work,
         mut scratch: &mut [T],
     ) -> Result<T::Mask, Stopped> {
-        let Given { rule, table, model, ref at } = *given;
-        let (n, q, shape) = (belief.mean.len(), model.noises(), rule.shape(belief.mean.len()));
+        let Given { rule, table, model, ref at, again } = *given;
+        let (n, q) = (belief.mean.len(), model.noises());
         let full = self.variant == Variant::Full;
         let g = take(&mut scratch, n * q);
         let rate = take(&mut scratch, n * q);
-        let lf = take(&mut scratch, n * q);
-        diffusion_rate(model, at, belief.mean, g, rate, scratch)?;
+        let (one, two) = (take(&mut scratch, n * q), take(&mut scratch, n * q));
+        let lf = &mut *two;
+        if !again || model.diffusion_varies() != Varies::Never {
+            diffusion_rate(model, at, belief.mean, g, rate, scratch)?;
+        }
         if !full {
             // Lf at the mean from which the step starts: 2021 eq 8 prints the one it ends in
             let (f, rest) = scratch.split_at_mut(n);
@@ -137,32 +142,23 @@ impl<M: Sde> TimeUpdate<M> for ItoTaylor {
             _ => 1,
         };
         let map = self.map(model, count);
-        let (outputs, stride) = (map.outputs(), n + shape.plus);
-        let mean = take(&mut scratch, outputs);
-        let dev = take(&mut scratch, outputs * stride);
-        let minus = take(&mut scratch, outputs * shape.minus);
-        let noise = take(&mut scratch, 2 * n * q);
-        let mut spread = Spread { mean, dev, stride, minus };
         let each = At { dt: at.dt / T::of(count as f64), ..*at };
-        rule.spread(table, &map, &each, belief.mean, belief.factor, &mut spread, scratch);
-        check_spread(&spread, n, q, shape.points)?;
+        let mut stacked = Stacked::spread((rule, table), &map, &each, belief, [q, 2 * q], &mut scratch)?;
         if full {
-            lf.copy_from_slice(&spread.mean[n..]);
+            lf.copy_from_slice(&stacked.mean[n..]);
         }
         let delta = at.dt;
         let root = delta.sqrt();
         let (half, twelfth) = (T::of(0.5) * delta, root * delta * T::of(12.0f64.sqrt().recip()));
-        for i in 0..n {
-            let (one, two) = noise[2 * i * q..2 * (i + 1) * q].split_at_mut(q);
-            for j in 0..q {
-                let (g, lf, rate) = (g[i * q + j], lf[i * q + j], rate[i * q + j]);
-                one[j] = root * half.mul_add(lf + rate, g);
-                two[j] = twelfth * (lf - rate);
-            }
+        for (((one, two), &g), &rate) in one.iter_mut().zip(&mut *two).zip(&*g).zip(&*rate) {
+            let lf = *two;
+            (*one, *two) = (root * half.mul_add(lf + rate, g), twelfth * (lf - rate));
         }
-        let entries = full.then_some(root * delta * T::of(3.0f64.sqrt().recip()));
-        let lost = shape.minus;
-        let stacked = Stacked { spread, entries, q, noise, known: 2 * q, lost };
-        Ok(finish::<T, F>(stacked, belief, back, scratch)?)
+        stacked.known(one, q);
+        stacked.known(two, q);
+        if full {
+            stacked.entries(q, root * delta * T::of(3.0f64.sqrt().recip()));
+        }
+        Ok(stacked.settle::<F>(belief, back, scratch)?)
     }
 }

@@ -5,27 +5,28 @@ use super::settle::{Moved, settle, settle_scratch};
 use crate::filter::backward::Backward;
 use crate::filter::error::{Fault, Quantity};
 use crate::filter::form::{Belief, Form};
-use crate::filter::memory::{larger, take, whole_packs};
+use crate::filter::memory::{larger, put_columns, take, whole_packs};
 use crate::kernels::wild_row;
-use crate::model::{At, Sde, Varies};
-use crate::rule::{Shape, Spread, spread_scratch};
+use crate::model::{At, Map, Sde, Varies};
+use crate::rule::{Rule, Shape, Spread, spread_scratch};
 use crate::scalar::{Dual2, Mask, Real, as_duals};
 
-/// The image of a state and, below it, of the entries of an n × q matrix that multiplies the noise: what a rule makes of
-/// both, and the columns of noise that do not depend on the state.
+/// [D E N] in the making. Columns of N that are zero are left out: they would cost as much as others.
 pub(super) struct Stacked<'a, T> {
-    /// n rows, and n q more if `entries`.
-    pub spread: Spread<'a, T>,
-    /// Whether the matrix's own spread counts, times this.
-    pub entries: Option<T>,
-    /// Columns q of the matrix.
-    pub q: usize,
-    /// The known columns of noise, n rows of `known`.
-    pub noise: &'a [T],
-    /// Their number.
-    pub known: usize,
-    /// Negative columns of the rule.
-    pub lost: usize,
+    /// m⁻, and below it the mean of the entries of an n × q matrix that multiplies the noise, if it moves with the state.
+    pub mean: &'a mut [T],
+    /// How these entries spread, rows of length `width` and `lost`.
+    entries: (&'a [T], &'a [T]),
+    /// [D E N], n rows.
+    dev: &'a mut [T],
+    stride: usize,
+    /// Columns of [D E], and of [D E N] so far.
+    width: usize,
+    columns: usize,
+    /// The negative columns of E, n rows of `all_lost`, of which the rule's own are the first.
+    minus: &'a mut [T],
+    lost: usize,
+    all_lost: usize,
 }
 
 /// Scalars of scratch for n states, q noises, at most `known` known columns, a map of `outputs` outputs with its scratch.
@@ -41,107 +42,110 @@ pub(super) const fn stacked_scratch(
     let width = n + shape.plus;
     let times = 1 + if outputs > n { q } else { 0 };
     let stride = whole_packs(times * width + known);
-    let own = outputs * (width + shape.minus + 1) + n * known;
-    let end = n * stride + n * times * shape.minus + settle_scratch(n, stride, smoothing);
-    own + larger(spread_scratch(shape, n, outputs, map), end)
+    let apart = if outputs > n { outputs * (width + shape.minus) } else { 0 };
+    let own = outputs + n * (stride + times * shape.minus) + apart;
+    own + larger(spread_scratch(shape, n, outputs, map), settle_scratch(n, stride, smoothing))
 }
 
-/// Puts the columns side by side, those of zeros left out, and ends the step.
-#[inline(always)]
-pub(super) fn finish<T: Real, F: Form>(
-    stacked: Stacked<T>,
-    belief: &mut Belief<T>,
-    back: Option<&mut Backward<T>>,
-    mut scratch: &mut [T],
-) -> Result<T::Mask, Fault> {
-    let Stacked { spread, entries, q, noise, known, lost } = stacked;
-    let n = belief.mean.len();
-    let width = spread.stride;
-    // a noise whose entries do not move with the state spreads nothing
-    let mut spreads = 0;
-    let q_spread = if entries.is_some() { q } else { 0 };
-    for j in 0..q_spread {
-        spreads += usize::from(moves(&spread, lost, n, q, j));
-    }
-    let mut kept = 0;
-    for j in 0..known {
-        kept += usize::from(!empty(noise, known, j));
-    }
-    let columns = width * (1 + spreads) + kept;
-    let stride = whole_packs(columns);
-    let all_lost = lost * (1 + spreads);
-    let dev = take(&mut scratch, n * stride);
-    let minus = take(&mut scratch, n * all_lost);
-    let scale = entries.unwrap_or(T::zero());
-    for i in 0..n {
-        let row = &mut dev[i * stride..(i + 1) * stride];
-        row[..width].copy_from_slice(&spread.dev[i * width..(i + 1) * width]);
-        minus[i * all_lost..][..lost].copy_from_slice(&spread.minus[i * lost..(i + 1) * lost]);
-    }
-    let mut column = width;
-    for j in 0..known {
-        if !empty(noise, known, j) {
-            for i in 0..n {
-                dev[i * stride + column] = noise[i * known + j];
-            }
-            column += 1;
+impl<'a, T: Real> Stacked<'a, T> {
+    /// The image of the belief by a map of the state and, below it, of the entries of an n × q matrix, if it has any; with
+    /// room for `known` columns. After a fault the belief is as before.
+    #[inline(always)]
+    pub fn spread<R: Rule, G: Map>(
+        (rule, table): (&R, &[T]),
+        map: &G,
+        at: &At<T>,
+        belief: &Belief<T>,
+        [q, known]: [usize; 2],
+        scratch: &mut &'a mut [T],
+    ) -> Result<Self, Fault> {
+        let (n, outputs) = (belief.mean.len(), map.outputs());
+        let shape = rule.shape(n);
+        let (width, lost) = (n + shape.plus, shape.minus);
+        let times = 1 + if outputs > n { q } else { 0 };
+        let (stride, all_lost) = (whole_packs(times * width + known), times * lost);
+        let mean = take(scratch, outputs);
+        let dev = take(scratch, n * stride);
+        let minus = take(scratch, n * all_lost);
+        let mut entries = (&[] as &[T], &[] as &[T]);
+        if outputs == n {
+            let mut spread = Spread { mean, dev, stride, minus };
+            rule.spread(table, map, at, belief.mean, belief.factor, &mut spread, scratch);
+            check_spread(&spread, width, [n, q], shape.points)?;
+        } else {
+            let (every, away) = (take(scratch, outputs * width), take(scratch, outputs * lost));
+            let mut spread = Spread { mean, dev: every, stride: width, minus: away };
+            rule.spread(table, map, at, belief.mean, belief.factor, &mut spread, scratch);
+            check_spread(&spread, width, [n, q], shape.points)?;
+            let (own, below) = every.split_at(n * width);
+            let (own_lost, below_lost) = away.split_at(n * lost);
+            put_columns(dev, stride, 0, own, width);
+            put_columns(minus, all_lost, 0, own_lost, lost);
+            entries = (below, below_lost);
         }
+        Ok(Self { mean, entries, dev, stride, width, columns: width, minus, lost, all_lost })
     }
-    let mut block = 0;
-    for j in 0..q_spread {
-        if !moves(&spread, lost, n, q, j) {
-            continue;
-        }
-        for i in 0..n {
-            let from = n + i * q + j;
-            let to = &mut dev[i * stride + width + kept + block * width..][..width];
-            for (to, &x) in to.iter_mut().zip(&spread.dev[from * width..]) {
-                *to = scale * x;
-            }
-            let away = &mut minus[i * all_lost + (block + 1) * lost..][..lost];
-            for (to, &x) in away.iter_mut().zip(&spread.minus[from * lost..]) {
-                *to = scale * x;
-            }
-        }
-        block += 1;
-    }
-    let mean = &spread.mean[..n];
-    settle::<T, F>(Moved { mean, dev, columns, stride, minus, lost: all_lost }, belief, back, scratch)
-}
 
-/// Whether the entries of noise `j` move with the state, in any lane: n rows of n × q such entries below those of the state.
-#[inline(always)]
-fn moves<T: Real>(spread: &Spread<T>, lost: usize, n: usize, q: usize, j: usize) -> bool {
-    let width = spread.stride;
-    let mut still = T::Mask::splat(true);
-    for i in 0..n {
-        let row = n + i * q + j;
-        for x in spread.dev[row * width..][..width].iter().chain(&spread.minus[row * lost..][..lost]) {
-            still = still & x.same(T::zero());
+    /// Adds the columns of a matrix n × q that the state does not move.
+    #[inline(always)]
+    pub fn known(&mut self, noise: &[T], q: usize) {
+        for j in 0..q {
+            self.column(|i| noise[i * q + j]);
         }
     }
-    !still.all()
-}
 
-/// Whether column `j` of a matrix of rows of length `stride` is zero in every lane.
-#[inline(always)]
-fn empty<T: Real>(a: &[T], stride: usize, j: usize) -> bool {
-    let mut zero = T::Mask::splat(true);
-    for row in a.chunks_exact(stride) {
-        zero = zero & row[j].same(T::zero());
+    /// Adds the spread of the entries of the matrix, each times `scale`.
+    #[inline(always)]
+    pub fn entries(&mut self, q: usize, scale: T) {
+        let ((entries, lost), width) = (self.entries, self.width);
+        for j in 0..q {
+            for l in 0..width {
+                self.column(|i| scale * entries[(i * q + j) * width + l]);
+            }
+            for (i, row) in self.minus.chunks_exact_mut(self.all_lost.max(1)).enumerate() {
+                let away = &mut row[(j + 1) * self.lost..][..self.lost];
+                for (to, &x) in away.iter_mut().zip(&lost[(i * q + j) * self.lost..]) {
+                    *to = scale * x;
+                }
+            }
+        }
     }
-    zero.all()
+
+    /// Adds a column unless it is zero in every lane.
+    #[inline(always)]
+    fn column(&mut self, of: impl Fn(usize) -> T) {
+        let mut zero = T::Mask::splat(true);
+        for (i, row) in self.dev.chunks_exact_mut(self.stride).enumerate() {
+            let x = of(i);
+            row[self.columns] = x;
+            zero = zero & x.same(T::zero());
+        }
+        self.columns += usize::from(!zero.all());
+    }
+
+    /// Ends the step.
+    #[inline(always)]
+    pub fn settle<F: Form>(
+        self,
+        belief: &mut Belief<T>,
+        back: Option<&mut Backward<T>>,
+        scratch: &mut [T],
+    ) -> Result<T::Mask, Fault> {
+        let Self { mean, dev, columns, stride, minus, all_lost, .. } = self;
+        let mean = &mean[..belief.mean.len()];
+        settle::<T, F>(Moved { mean, dev, columns, stride, minus, lost: all_lost }, belief, back, scratch)
+    }
 }
 
 /// The first component of a stacked spread that is not finite, as a fault.
 #[inline(always)]
 pub(super) fn check_spread<T: Real>(
     spread: &Spread<T>,
-    n: usize,
-    q: usize,
+    columns: usize,
+    [n, q]: [usize; 2],
     points: usize,
 ) -> Result<(), Fault> {
-    match spread.not_finite(spread.stride) {
+    match spread.not_finite(columns) {
         None => Ok(()),
         Some(component) if component < n => {
             let derived = points == 0 && spread.mean[component].finite().any();

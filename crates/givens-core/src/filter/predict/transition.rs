@@ -104,7 +104,7 @@ impl<M: Transition> TimeUpdate<M> for OneTransition {
         _: &mut Work,
         mut scratch: &mut [T],
     ) -> Result<T::Mask, Stopped> {
-        let Given { rule, table, model, ref at } = *given;
+        let Given { rule, table, model, ref at, .. } = *given;
         let n = belief.mean.len();
         let shape = rule.shape(n);
         let q = model.noise().columns(n);

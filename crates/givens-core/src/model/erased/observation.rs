@@ -30,36 +30,38 @@ impl<M: Observation> Answers for Asked<'_, M> {
 
 behind_a_pointer! {
     AnyObservation is a Observation by ObservationCalls;
-    passing {
+    known {
         fn states() -> usize;
         fn measures() -> usize;
-        fn angle(i: usize) -> Option<f64>;
         fn serves_packs() -> bool;
         fn controls() -> usize;
         fn parameters() -> usize;
         fn noise() -> Noise;
+    }
+    passing {
+        fn angle(i: usize) -> Option<f64>;
         fn observe_scratch(points: usize) -> usize;
     }
     asking {
         #[inline(always)]
         fn observe<T: Real>(&self, at: &At<T>, x: &[T], out: &mut [T]) {
-            asking::at_one(at, x, out, |question| self.0.ask(question));
+            asking::at_one(at, x, out, |question| self.model.ask(question));
         }
         #[inline(always)]
         fn observe_points<T: Real>(&self, at: &At<T>, points: usize, x: &[T], out: &mut [T], scratch: &mut [T]) {
-            asking::at_points(at, points, x, out, scratch, |question| self.0.ask(question));
+            asking::at_points(at, points, x, out, scratch, |question| self.model.ask(question));
         }
         #[inline(always)]
         fn observe_linear<T: Real>(&self, at: &At<T>, x: &[T], s: &[T], out: Linear<T>, scratch: &mut [T]) {
-            asking::linear(at, x, s, out, scratch, |question| self.0.ask(question));
+            asking::linear(at, x, s, out, scratch, |question| self.model.ask(question));
         }
         #[inline(always)]
         fn measurement_noise<T: Real>(&self, at: &At<T>, out: &mut [T]) {
-            asking::noise(at, &[], out, |question| self.0.ask(question));
+            asking::noise(at, &[], out, |question| self.model.ask(question));
         }
         #[inline(always)]
         fn noise_root<T: Real>(&self, at: &At<T>, root: &mut [T]) -> Health<T> {
-            asking::noise_root(at, root, |question| self.0.ask(question))
+            asking::noise_root(at, root, |question| self.model.ask(question))
         }
     }
 }

@@ -35,32 +35,34 @@ impl<M: Sde> Answers for Asked<'_, M> {
 
 behind_a_pointer! {
     AnySde is a Sde by SdeCalls;
-    passing {
+    known {
         fn states() -> usize;
         fn noises() -> usize;
         fn serves_packs() -> bool;
         fn controls() -> usize;
-        fn parameters() -> &[f64];
         fn diffusion_varies() -> Varies;
+    }
+    passing {
+        fn parameters() -> &[f64];
         fn drift_scratch(points: usize) -> usize;
         fn expansion_scratch(points: usize) -> usize;
     }
     asking {
         #[inline(always)]
         fn drift<T: Real>(&self, at: &At<T>, x: &[T], out: &mut [T]) {
-            asking::at_one(at, x, out, |question| self.0.ask(question));
+            asking::at_one(at, x, out, |question| self.model.ask(question));
         }
         #[inline(always)]
         fn drift_points<T: Real>(&self, at: &At<T>, points: usize, x: &[T], out: &mut [T], scratch: &mut [T]) {
-            asking::at_points(at, points, x, out, scratch, |question| self.0.ask(question));
+            asking::at_points(at, points, x, out, scratch, |question| self.model.ask(question));
         }
         #[inline(always)]
         fn drift_linear<T: Real>(&self, at: &At<T>, x: &[T], s: &[T], out: Linear<T>, scratch: &mut [T]) {
-            asking::linear(at, x, s, out, scratch, |question| self.0.ask(question));
+            asking::linear(at, x, s, out, scratch, |question| self.model.ask(question));
         }
         #[inline(always)]
         fn diffusion<T: Real>(&self, at: &At<T>, x: &[T], out: &mut [T]) {
-            asking::noise(at, x, out, |question| self.0.ask(question));
+            asking::noise(at, x, out, |question| self.model.ask(question));
         }
         #[inline(always)]
         fn expansion_points<T: Real>(
@@ -81,7 +83,7 @@ behind_a_pointer! {
                 lf: floats_mut(lf),
                 scratch: floats_mut(scratch),
             };
-            if !asking::asked(at, call, |question| self.0.ask(question)) {
+            if !asking::asked(at, call, |question| self.model.ask(question)) {
                 asking::unknown(f);
             }
         }

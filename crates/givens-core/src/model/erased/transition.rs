@@ -30,35 +30,37 @@ impl<M: Transition> Answers for Asked<'_, M> {
 
 behind_a_pointer! {
     AnyTransition is a Transition by TransitionCalls;
-    passing {
+    known {
         fn states() -> usize;
         fn period() -> Option<f64>;
         fn serves_packs() -> bool;
         fn controls() -> usize;
-        fn parameters() -> &[f64];
         fn noise() -> Noise;
+    }
+    passing {
+        fn parameters() -> &[f64];
         fn transition_scratch(points: usize) -> usize;
     }
     asking {
         #[inline(always)]
         fn transition<T: Real>(&self, at: &At<T>, x: &[T], out: &mut [T]) {
-            asking::at_one(at, x, out, |question| self.0.ask(question));
+            asking::at_one(at, x, out, |question| self.model.ask(question));
         }
         #[inline(always)]
         fn transition_points<T: Real>(&self, at: &At<T>, points: usize, x: &[T], out: &mut [T], scratch: &mut [T]) {
-            asking::at_points(at, points, x, out, scratch, |question| self.0.ask(question));
+            asking::at_points(at, points, x, out, scratch, |question| self.model.ask(question));
         }
         #[inline(always)]
         fn transition_linear<T: Real>(&self, at: &At<T>, x: &[T], s: &[T], out: Linear<T>, scratch: &mut [T]) {
-            asking::linear(at, x, s, out, scratch, |question| self.0.ask(question));
+            asking::linear(at, x, s, out, scratch, |question| self.model.ask(question));
         }
         #[inline(always)]
         fn process_noise<T: Real>(&self, at: &At<T>, out: &mut [T]) {
-            asking::noise(at, &[], out, |question| self.0.ask(question));
+            asking::noise(at, &[], out, |question| self.model.ask(question));
         }
         #[inline(always)]
         fn noise_root<T: Real>(&self, at: &At<T>, root: &mut [T]) -> Health<T> {
-            asking::noise_root(at, root, |question| self.0.ask(question))
+            asking::noise_root(at, root, |question| self.model.ask(question))
         }
     }
 }

@@ -70,13 +70,15 @@ pub(super) trait Lanes: Pack<Element: Format> {
     }
 }
 
-/// c₀ + c₁ x + c₂ x² + …
+/// c₀ + c₁ x + c₂ x² + … A fold would not always be inlined.
 #[inline(always)]
 fn polynomial<T: Lanes>(coefficients: &[f64], x: T) -> T {
-    match coefficients {
-        [] => T::zero(),
-        [rest @ .., last] => rest.iter().rev().fold(T::of(*last), |sum, &c| sum.mul_add(x, T::of(c))),
+    let [rest @ .., last] = coefficients else { return T::zero() };
+    let mut sum = T::of(*last);
+    for &c in rest.iter().rev() {
+        sum = sum.mul_add(x, T::of(c));
     }
+    sum
 }
 
 /// The whole number next to x, and 1.5 · 2^mantissa more than it: there its lowest bits end the pattern.

@@ -1,6 +1,7 @@
 //! Which instruction set, and the way into it.
 
 use super::{Element, Pack, array};
+use crate::scalar::Inside;
 
 /// An instruction set that packs exist for.
 ///
@@ -78,6 +79,26 @@ impl InstructionSet {
                 E::dispatch(self, job)
             }
         })
+    }
+
+    /// Does work that knows nothing of packs, compiled with the instructions of this set if the machine has it.
+    #[inline(always)]
+    pub(crate) fn vectorised<W: Inside>(self, work: W) -> W::Output {
+        #[cfg(target_arch = "x86_64")]
+        #[target_feature(enable = "avx2,fma")]
+        fn avx2<W: Inside>(work: W) -> W::Output {
+            work.go()
+        }
+        fn inside<W: Inside>(work: W) -> W::Output {
+            work.go()
+        }
+        #[cfg(target_arch = "x86_64")]
+        if self == Self::Avx2 && self.available() {
+            // SAFETY: the line above has seen that the set is available.
+            #[allow(unsafe_code)]
+            return unsafe { avx2(work) };
+        }
+        inside(work)
     }
 
     /// Does the work on packs of this set if they are registers; else gives it back. Arrays are not compiled for it.

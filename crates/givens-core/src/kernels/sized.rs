@@ -1,0 +1,19 @@
+//! Lengths that the compiler knows.
+
+/// Does the work with a length that is a constant wherever it is small, so that the loops over it unroll: for kernels as
+/// functions of their own, which are compiled once for each such length.
+macro_rules! sized {
+    ($n:ident => $work:expr) => {
+        crate::kernels::sized!(@ $n 1 2 3 4 5 6 7 8 9 => $work)
+    };
+    (@ $n:ident $($known:literal)* => $work:expr) => {
+        match $n {
+            $($known => {
+                let $n = $known;
+                $work
+            })*
+            _ => $work,
+        }
+    };
+}
+pub(crate) use sized;

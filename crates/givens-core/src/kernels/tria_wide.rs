@@ -2,7 +2,7 @@
 
 use super::plus_dot;
 use super::tria_panels::Panels;
-use crate::scalar::{Grain, Job, LANES, LaneMask, NARROW, Pack, Real, floats_mut};
+use crate::scalar::{Grain, Job, LANES, NARROW, Pack, Real, floats_mut};
 
 /// The longest row that is kept in packs while it is reflected: longer ones go faster four reflections at a time, by measurement.
 const LONGEST: usize = 12;
@@ -44,80 +44,125 @@ struct Matrix<'a> {
 impl Job<f64> for Matrix<'_> {
     type Output = usize;
     const AVX512: bool = false;
-    /// While a reflection goes over the rows below, it takes the products that the next one needs: each row is read once.
     #[inline(always)]
     fn run<P: Pack<Element = f64>>(self) -> usize {
+        macro_rules! of_known_packs {
+            ($($packs:literal)*) => {
+                match self.columns.div_ceil(P::WIDTH) {
+                    $($packs => self.reflected::<P, $packs>(),)*
+                    _ => 0,
+                }
+            };
+        }
+        of_known_packs!(1 2 3 4 5 6 7 8 9 10 11 12)
+    }
+}
+
+impl Matrix<'_> {
+    /// All rows, of K packs each. While a reflection goes over the rows below, it takes the products that the next one needs:
+    /// each row is read once. A reflection leaves the signs of its column, and what is left of its row, to the end.
+    #[inline(always)]
+    fn reflected<P: Pack<Element = f64>, const K: usize>(self) -> usize {
         let Self { a, rows, columns, stride } = self;
-        let packs = columns.div_ceil(P::WIDTH);
-        for row in a.chunks_exact_mut(stride).take(rows) {
-            row[columns..packs * P::WIDTH].fill(0.0);
-        }
         let bound = columns as f64 * f64::EPSILON;
-        // row i from its head on, and its products with itself and with the rows below
-        let (mut v, mut next) = ([P::zero(); LONGEST], [P::zero(); LONGEST]);
+        // what is left of row i, and of the next one, and the products of row i with itself and with the rows below
+        let (mut v, mut next, mut signs) = ([P::zero(); K], [P::zero(); K], [P::one(); K]);
         let mut along = [0.0; TALLEST];
-        for (v, x) in v.iter_mut().zip(a.chunks_exact(P::WIDTH).take(packs)) {
-            *v = P::load(x);
-        }
-        for (along, row) in along.iter_mut().zip(a.chunks_exact(stride).take(rows)) {
-            *along = dot(&v[..packs], &row[..packs * P::WIDTH]);
-        }
-        for i in 0..rows {
-            if i >= columns {
-                return i;
+        for (j, row) in a.chunks_exact_mut(stride).take(rows).enumerate() {
+            let row = &mut row[..K * P::WIDTH];
+            let mut x = packs::<P, K>(row);
+            x[K - 1] = P::select(place::<P>(K - 1).lt(P::splat(columns as f64)), x[K - 1], P::zero());
+            x[K - 1].store(&mut row[(K - 1) * P::WIDTH..]);
+            if j == 0 {
+                v = x;
             }
+            along[j] = dot(&v, &x);
+        }
+        let mut done = 0;
+        for i in 0..rows.min(columns) {
             let (above, below) = a.split_at_mut((i + 1) * stride);
             let row = &mut above[i * stride..];
-            let (first, lane) = (i / P::WIDTH, i % P::WIDTH);
             let rest = along[i];
             if rest <= bound * bound * (plus_dot(0.0, &row[..i], &row[..i]) + rest) {
-                return i;
+                break;
             }
             let norm = rest.sqrt();
             let head = row[i];
             let toward = norm.copysign(head);
             let scale = -(norm * (norm + head.abs())).recip();
-            let flip = -1.0_f64.copysign(head);
-            row[i] = norm;
-            row[i + 1..].fill(0.0);
-            let (v, next) = (&mut v[first..packs], &mut next[first..packs]);
-            v[0] = v[0].with_lane(lane, head + toward);
-            let mut lower = below.chunks_exact_mut(stride).take(rows - i - 1).zip(&mut along[i + 1..]);
-            let Some((x, product)) = lower.next() else { break };
-            let x = &mut x[first * P::WIDTH..packs * P::WIDTH];
-            let by = P::splat(toward.mul_add(x[lane], *product) * scale);
-            for ((to, &v), x) in next.iter_mut().zip(&*v).zip(x.chunks_exact_mut(P::WIDTH)) {
-                *to = by.mul_add(v, P::load(x));
-                to.store(x);
+            row[i] = -toward;
+            let (column, moved, sign) =
+                (P::splat(i as f64), P::splat(head + toward), P::splat(-1.0_f64.copysign(head)));
+            for k in 0..K {
+                let here = place::<P>(k).same(column);
+                v[k] = P::select(here, moved, v[k]);
+                signs[k] = P::select(here, sign, signs[k]);
             }
-            x[lane] *= flip;
-            let left = P::Mask::of_bits(u32::MAX << lane << 1);
-            next[0] = P::select(left, next[0], P::zero());
-            *product = dot(next, x);
-            for (x, product) in lower {
-                let x = &mut x[first * P::WIDTH..packs * P::WIDTH];
-                let by = P::splat(toward.mul_add(x[lane], *product) * scale);
-                let mut sum = P::zero();
-                for ((&next, &v), x) in next.iter().zip(&*v).zip(x.chunks_exact_mut(P::WIDTH)) {
-                    let moved = by.mul_add(v, P::load(x));
-                    moved.store(x);
-                    sum = next.mul_add(moved, sum);
+            for (j, row) in below.chunks_exact_mut(stride).take(rows - i - 1).enumerate() {
+                let row = &mut row[..K * P::WIDTH];
+                let product = &mut along[i + 1 + j];
+                let by = P::splat(toward.mul_add(row[i], *product) * scale);
+                let mut x = packs::<P, K>(row);
+                for k in 0..K {
+                    x[k] = by.mul_add(v[k], x[k]);
+                    x[k].store(&mut row[k * P::WIDTH..]);
                 }
-                x[lane] *= flip;
-                *product = sum.sum();
+                if j == 0 {
+                    for k in 0..K {
+                        next[k] = P::select(column.lt(place::<P>(k)), x[k], P::zero());
+                    }
+                }
+                *product = dot(&next, &x);
             }
-            v.copy_from_slice(next);
+            v = next;
+            done = i + 1;
         }
-        rows
+        for (j, row) in a.chunks_exact_mut(stride).take(rows).enumerate() {
+            let last = P::splat(if j < done { j } else { columns } as f64);
+            let x = packs::<P, K>(row);
+            for k in 0..K {
+                P::select(place::<P>(k).le(last), signs[k] * x[k], P::zero()).store(&mut row[k * P::WIDTH..]);
+            }
+            if stride > K * P::WIDTH {
+                row[K * P::WIDTH..].fill(0.0);
+            }
+        }
+        done
     }
 }
 
-/// Σ v x.
+/// The columns of pack k.
 #[inline(always)]
-fn dot<P: Pack<Element = f64>>(v: &[P], x: &[f64]) -> f64 {
-    let mut sum = P::zero();
-    for (&v, x) in v.iter().zip(x.chunks_exact(P::WIDTH)) {
-        sum = v.mul_add(P::load(x), sum);
+fn place<P: Pack<Element = f64>>(k: usize) -> P {
+    P::load(&COLUMNS[k * P::WIDTH..])
+}
+
+const COLUMNS: [f64; LONGEST * LANES] = {
+    let mut columns = [0.0; LONGEST * LANES];
+    let mut j = 0;
+    while j < columns.len() {
+        columns[j] = j as f64;
+        j += 1;
     }
-    sum.sum()
+    columns
+};
+
+/// The first K packs of a row.
+#[inline(always)]
+fn packs<P: Pack<Element = f64>, const K: usize>(row: &[f64]) -> [P; K] {
+    let mut x = [P::zero(); K];
+    for k in 0..K {
+        x[k] = P::load(&row[k * P::WIDTH..]);
+    }
+    x
+}
+
+/// Σ v x, in two sums: the additions need not all wait for each other.
+#[inline(always)]
+fn dot<P: Pack<Element = f64>, const K: usize>(v: &[P; K], x: &[P; K]) -> f64 {
+    let mut sums = [P::zero(); 2];
+    for k in 0..K {
+        sums[k % 2] = v[k].mul_add(x[k], sums[k % 2]);
+    }
+    (sums[0] + sums[1]).sum()
 }

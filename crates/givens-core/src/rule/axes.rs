@@ -83,22 +83,33 @@ fn gathered<T: Real>(images: &Images<T>, axes: Axes, out: &mut Spread<T>) {
         let (plus, minus) = (&plus[..n], &minus[..n]);
         // a component without spread must have no deviation, not one of rounding, which would pass for a direction
         let near = if centred { at_mean.unwrap_or(plus[0]) } else { plus[0] };
+        let row = &mut out.dev[i * out.stride..][..out.stride];
         let mut sum = T::zero();
-        for l in 0..n {
-            sum += middle(plus[l], minus[l], near);
+        for block in (0..n).step_by(BLOCK) {
+            let len = BLOCK.min(n - block);
+            let (plus, minus) = (&plus[block..][..len], &minus[block..][..len]);
+            // all are read before one is written: they may then be worked out side by side
+            let (mut away, mut middles) = ([T::zero(); BLOCK], [T::zero(); BLOCK]);
+            for l in 0..len {
+                away[l] = odd * (plus[l] - minus[l]);
+                middles[l] = middle(plus[l], minus[l], near);
+            }
+            for l in 0..len {
+                sum += middles[l];
+            }
+            row[block..][..len].copy_from_slice(&away[..len]);
+            if row.len() >= 2 * n {
+                row[n + block..][..len].copy_from_slice(&middles[..len]);
+            }
         }
         let average = share * sum;
-        let row = &mut out.dev[i * out.stride..][..out.stride];
-        for l in 0..n {
-            row[l] = odd * (plus[l] - minus[l]);
-        }
         let b = shift * average;
         *mean = near + b;
         if out.stride == n {
             continue;
         }
-        for (l, row) in row[n..][..n].iter_mut().enumerate() {
-            *row = even * (middle(plus[l], minus[l], near) - average);
+        for even_part in &mut row[n..2 * n] {
+            *even_part = even * (*even_part - average);
         }
         if bend > 0.0 {
             row[2 * n] = curvature * b;
@@ -107,6 +118,9 @@ fn gathered<T: Real>(images: &Images<T>, axes: Axes, out: &mut Spread<T>) {
         }
     });
 }
+
+/// Pairs that are worked out together.
+const BLOCK: usize = 8;
 
 /// Halfway between two images, seen from a third: no rounding where all are equal.
 #[inline(always)]

@@ -106,7 +106,9 @@ pub(super) fn lower<T: Real>(reach: f64, before: &[T], mean: &[T], factor: &[T],
     let far = T::of(far(reach, n, T::EPSILON));
     let (means, deviations) = before.split_at(n);
     for (i, (&m, floor)) in mean.iter().zip(floor).enumerate() {
-        if (far * m.abs()).lt(deviation(&factor[i * n..=i * n + i])).all() {
+        let (row, near) = (&factor[i * n..=i * n + i], far * m.abs());
+        // the diagonal is part of the sum, and often says enough
+        if near.lt(row[i].abs()).all() || near.lt(deviation(row)).all() {
             *floor = T::zero();
             continue;
         }

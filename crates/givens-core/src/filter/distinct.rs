@@ -23,7 +23,8 @@ pub(super) fn distinct<T: Real>(
     let n = mean.len();
     let far = T::of(far(reach, n, T::EPSILON));
     let mut health = Health::<T>::good();
-    for (i, (&m, &floor)) in mean.iter().zip(floor).enumerate() {
+    for i in 0..n {
+        let (m, floor) = (mean[i], floor[i]);
         if (far * m.abs()).lt(before[n + i]).all() {
             continue;
         }
@@ -105,7 +106,8 @@ pub(super) fn lower<T: Real>(reach: f64, before: &[T], mean: &[T], factor: &[T],
     let n = mean.len();
     let far = T::of(far(reach, n, T::EPSILON));
     let (means, deviations) = before.split_at(n);
-    for (i, (&m, floor)) in mean.iter().zip(floor).enumerate() {
+    for i in 0..n {
+        let (m, floor) = (mean[i], &mut floor[i]);
         let (row, near) = (&factor[i * n..=i * n + i], far * m.abs());
         // the diagonal is part of the sum, and often says enough
         if near.lt(row[i].abs()).all() || near.lt(deviation(row)).all() {

@@ -1,6 +1,7 @@
 //! Products of small matrices, and the sums that all kernels are made of.
 //!
-//! The sums are loops, not folds: a fold that the compiler does not inline is compiled without the instructions of a pack.
+//! The sums are loops over numbers, not folds or zips: what the compiler does not inline is compiled without the instructions of
+//! a pack.
 
 use crate::scalar::{Mask, Real};
 
@@ -17,8 +18,8 @@ pub fn dot<T: Real>(a: &[T], b: &[T]) -> T {
 #[inline(always)]
 pub fn plus_dot<T: Real>(start: T, a: &[T], b: &[T]) -> T {
     let mut sum = start;
-    for (&a, &b) in a.iter().zip(b) {
-        sum = a.mul_add(b, sum);
+    for i in 0..a.len().min(b.len()) {
+        sum = a[i].mul_add(b[i], sum);
     }
     sum
 }
@@ -27,8 +28,8 @@ pub fn plus_dot<T: Real>(start: T, a: &[T], b: &[T]) -> T {
 #[inline(always)]
 pub fn less_dot<T: Real>(start: T, a: &[T], b: &[T]) -> T {
     let mut rest = start;
-    for (&a, &b) in a.iter().zip(b) {
-        rest = (-a).mul_add(b, rest);
+    for i in 0..a.len().min(b.len()) {
+        rest = (-a[i]).mul_add(b[i], rest);
     }
     rest
 }

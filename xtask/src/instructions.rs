@@ -19,6 +19,15 @@ struct Row {
     expected: u64,
 }
 
+/// Whether there is a valgrind to count by.
+pub fn can() -> bool {
+    let found = Command::new("valgrind").arg("--version").output().is_ok_and(|out| out.status.success());
+    if !found {
+        say("nothing was counted: valgrind is not installed");
+    }
+    found
+}
+
 /// Counts all rows; whether none is too far off. With `bless` the table takes the new counts.
 pub fn run(root: &Path, bless: bool) -> bool {
     counted(root, bless).unwrap_or_else(|message| {

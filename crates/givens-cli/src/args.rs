@@ -1,10 +1,11 @@
 //! What the user typed.
 
 use crate::message::Stop;
+use crate::numbers::{number, runs, seed, threads, whole};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
-use core::num::{IntErrorKind, ParseIntError};
+use core::num::NonZeroUsize;
 use std::path::PathBuf;
 
 /// Nonlinear Gaussian state estimation from a model file and a table of measurements.
@@ -134,6 +135,9 @@ pub struct FilterArgs {
     /// Draw the track, the states and NIS, through rows and the times of --at; given again, to another file too
     #[arg(long = "plot", value_name = "FILE.svg|png")]
     pub plots: Vec<PathBuf>,
+    /// Tracks are run on so many threads; all cores without it. The answers are the same for any
+    #[arg(long, value_name = "N", value_parser = threads, allow_negative_numbers = true)]
+    pub threads: Option<NonZeroUsize>,
 }
 
 #[derive(Debug, ClapArgs)]
@@ -204,6 +208,9 @@ pub struct CompareArgs {
     /// True states (CSV: time, states; track_id if any), for RMSE, NEES and coverage
     #[arg(long, value_name = "FILE")]
     pub truth: Option<String>,
+    /// Tracks are run on so many threads; all cores without it. The answers are the same for any
+    #[arg(long, value_name = "N", value_parser = threads, allow_negative_numbers = true)]
+    pub threads: Option<NonZeroUsize>,
 }
 
 #[derive(Debug, ClapArgs)]
@@ -244,34 +251,4 @@ pub struct ReproduceArgs {
     /// The folder for pages, tables and figures; without it, the pages' claims go to standard output
     #[arg(long, short, value_name = "DIR")]
     pub output: Option<PathBuf>,
-}
-
-/// A whole number.
-fn whole(text: &str) -> Result<usize, String> {
-    text.parse()
-        .map_err(|error| too_large(&error).unwrap_or("must be a whole number, zero or above").to_owned())
-}
-
-/// A number of runs.
-fn runs(text: &str) -> Result<u32, String> {
-    match text.parse() {
-        Ok(runs) if runs > 0 => Ok(runs),
-        Err(error) if too_large(&error).is_some() => Err("is too large a number of runs".to_owned()),
-        _ => Err("must be a whole number above zero".to_owned()),
-    }
-}
-
-/// The words for a whole number that cannot be held.
-fn too_large(error: &ParseIntError) -> Option<&'static str> {
-    (*error.kind() == IntErrorKind::PosOverflow).then_some("is too large a number")
-}
-
-/// A seed.
-fn seed(text: &str) -> Result<u64, String> {
-    text.parse().map_err(|_| "must be a whole number from 0 to 2^64 - 1".to_owned())
-}
-
-/// A number.
-fn number(text: &str) -> Result<f64, String> {
-    text.parse().map_err(|_| "must be a number".to_owned())
 }

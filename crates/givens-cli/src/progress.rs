@@ -1,16 +1,20 @@
 //! Progress on stderr, of work that takes longer than a second.
 
+use core::sync::atomic::{AtomicUsize, Ordering};
 use core::time::Duration;
-use givens::Row;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::sync::mpsc::{self, RecvTimeoutError};
+use std::thread::{Builder, scope};
 use std::time::Instant;
 
 /// A bar over the rows of all tracks. On anything but a terminal it is silent.
-#[derive(Clone)]
 pub struct Progress {
     bar: ProgressBar,
-    since: Instant,
 }
+
+/// How long nothing is shown, and how often the bar moves then.
+const QUIET: Duration = Duration::from_secs(1);
+const OFTEN: Duration = Duration::from_millis(200);
 
 impl Progress {
     pub fn new(rows: usize) -> Self {
@@ -18,56 +22,32 @@ impl Progress {
         if let Ok(style) = ProgressStyle::with_template("{bar:40} {human_pos}/{human_len} rows, {eta} left") {
             bar.set_style(style);
         }
-        Self { bar, since: Instant::now() }
+        Self { bar }
     }
 
-    fn tick(&self, rows: u64) {
-        self.bar.inc(rows);
-        if self.bar.is_hidden() && self.since.elapsed() > Duration::from_secs(1) {
-            self.bar.set_draw_target(ProgressDrawTarget::stderr_with_hz(5));
-        }
-    }
-
-    pub fn finish(&self) {
-        self.bar.finish_and_clear();
-    }
-
-    /// The same rows, each of them counted when it is taken.
-    pub fn counting<'a, I>(&self, rows: I) -> Counting<I>
-    where
-        I: Iterator<Item = Row<'a>> + Clone,
-    {
-        Counting { rows, taken: 0, progress: self.clone() }
-    }
-}
-
-/// Rows that move the bar. Every so many rows: looking at the clock costs more than a row.
-#[derive(Clone)]
-pub struct Counting<I> {
-    rows: I,
-    taken: u64,
-    progress: Progress,
-}
-
-const STRIDE: u64 = 1024;
-
-impl<'a, I: Iterator<Item = Row<'a>> + Clone> Iterator for Counting<I> {
-    type Item = Row<'a>;
-
-    fn next(&mut self) -> Option<Row<'a>> {
-        let row = self.rows.next();
-        if row.is_some() {
-            self.taken += 1;
-            if self.taken.is_multiple_of(STRIDE) {
-                self.progress.tick(STRIDE);
+    /// Does work that counts its rows, and shows how many there are while it takes long.
+    pub fn during<T>(&self, work: impl FnOnce(&AtomicUsize) -> T) -> T {
+        let (bar, rows) = (&self.bar, &AtomicUsize::new(0));
+        let (working, ended) = mpsc::channel::<()>();
+        let show = move || {
+            let mut wait = QUIET;
+            // the end of the work closes the channel
+            while ended.recv_timeout(wait) == Err(RecvTimeoutError::Timeout) {
+                if bar.is_hidden() {
+                    bar.set_draw_target(ProgressDrawTarget::stderr_with_hz(5));
+                }
+                bar.set_position(rows.load(Ordering::Relaxed) as u64);
+                wait = OFTEN;
             }
-        }
-        row
-    }
-
-    /// Counting ahead is no progress.
-    fn count(self) -> usize {
-        self.rows.count()
+            bar.finish_and_clear();
+        };
+        scope(|scope| {
+            // without a thread to spare nothing is shown
+            let shown = Builder::new().spawn_scoped(scope, show);
+            let done = work(rows);
+            drop((working, shown));
+            done
+        })
     }
 }
 

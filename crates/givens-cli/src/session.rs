@@ -1,14 +1,28 @@
-//! A plan carried out: the method over every track.
+//! A plan carried out: the method over every track, in packs and on all the threads it may have.
 
 use crate::failure;
 use crate::instants::Instants;
-use crate::message::count;
+use crate::message::{Stop, count};
 use crate::plan::Plan;
+use crate::portion::portions;
 use crate::progress::Progress;
+use core::num::NonZeroUsize;
+use givens::batch::Batch;
 use givens::metrics::{Accuracy, Truth};
 use givens::registry::Choice;
-use givens::{Estimates, Goal, Row};
-use givens_io::{Answer, Dynamics};
+use givens::{Estimates, Goal, Outcome};
+use givens_io::Answer;
+
+/// How a plan is carried out.
+#[derive(Clone, Copy)]
+pub struct Manner<'a> {
+    /// The times of `--at`.
+    pub at: Option<&'a Instants>,
+    /// All cores where it is not said.
+    pub threads: Option<NonZeroUsize>,
+    /// Whether the predictions, the innovations and the filtered covariances of a smoother are kept too.
+    pub whole: bool,
+}
 
 /// What came of a plan.
 pub struct Session {
@@ -24,57 +38,58 @@ pub struct Session {
 
 impl Session {
     /// Runs `choice` over all tracks; a track that fails does not stop the others.
-    pub fn run(plan: &Plan, choice: &Choice, goals: &[Goal], at: Option<&Instants>) -> Self {
+    pub fn run(plan: &Plan, choice: &Choice, goals: &[Goal], manner: Manner) -> Result<Self, Stop> {
         let rows = plan.tracks.tracks.iter().map(|track| track.rows.len()).sum();
-        let progress = Progress::new(rows);
-        let (mut answers, mut failures, mut there) = (Vec::new(), Vec::new(), Vec::new());
-        let empty = vec![f64::NAN; plan.model.measures()];
-        let tracks = plan.tracks.tracks.iter().zip(&plan.beginnings).zip(goals).enumerate();
-        for (i, ((track, begin), goal)) in tracks {
-            let times = at.map_or(Vec::new(), |at| at.of(i));
-            let rows = track.rows[begin.row..].iter().enumerate().map(|(k, row)| {
-                // what `start` has read is not used again
-                let z = if begin.started && k == 0 { &empty } else { &row.z };
-                Row { time: row.time, z, u: &row.u }
-            });
-            let rows = progress.counting(rows);
-            let (sensors, t0, prior) = (&plan.model.observation, begin.time, &begin.prior);
-            let outcome = match &plan.model.dynamics {
-                Dynamics::Discrete(model) => choice.run(model, sensors, rows, t0, prior, *goal, &times),
-                Dynamics::Continuous(model) => {
-                    choice.run_continuous(model, sensors, rows, t0, prior, *goal, &times)
-                }
-            };
-            if let Some((row, error)) = &outcome.failure {
-                let at = &track.rows[begin.row + row];
-                let place = failure::place(&plan.data, track, at, error.time);
-                let what = if *goal == Goal::Filter { "filter" } else { "smoother" };
-                let told = failure::told(&plan.model, &place, what, Some(choice), error);
-                let told =
-                    format!("{told}{}", failure::set_out(&plan.model, &outcome.failed_at, &error.fault));
-                let finished = match outcome.estimates.len() {
-                    0 => "no row".to_owned(),
-                    rows => count(rows, "row"),
+        let mut session =
+            Self { answers: Vec::new(), failures: Vec::new(), goals: goals.to_vec(), at: Vec::new() };
+        Progress::new(rows).during(|count| {
+            for portion in portions(plan, goals) {
+                let batch = Batch {
+                    goal: portion.goal,
+                    threads: manner.threads,
+                    rows: Some(count),
+                    ..Batch::default()
                 };
-                let of = track.id.as_ref().map_or(String::new(), |id| format!(" of track {id}"));
-                failures.push(format!("{told}\n  {finished}{of} finished before"));
+                let outcomes = portion.run(plan, choice, &batch, manner.at)?;
+                for (i, outcome) in portion.tracks.zip(outcomes) {
+                    session.take(plan, choice, i, outcome, manner);
+                }
             }
-            if at.is_some() {
-                there.push(Answer { estimates: outcome.at, ..Answer::default() });
-            }
-            let finished = outcome.estimates;
-            let mut row = begin.row;
-            let from_first = matches!(goal, Goal::Point(_));
-            if from_first {
-                // a fixed point has no estimate before its time
-                let ran = outcome.failure.as_ref().map_or(track.rows.len() - begin.row, |(row, _)| *row);
-                row += ran.saturating_sub(finished.len());
-            }
-            let started = begin.started && row == begin.row;
-            answers.push(Answer { estimates: finished, row, started, from_first });
+            Ok::<(), Stop>(())
+        })?;
+        Ok(session)
+    }
+
+    /// Takes in what came of track `i`.
+    fn take(&mut self, plan: &Plan, choice: &Choice, i: usize, outcome: Outcome, manner: Manner) {
+        let (track, begin, goal) = (&plan.tracks.tracks[i], &plan.beginnings[i], self.goals[i]);
+        if let Some((row, error)) = &outcome.failure {
+            let at = &track.rows[begin.row + row];
+            let place = failure::place(&plan.data, track, at, error.time);
+            let what = if goal == Goal::Filter { "filter" } else { "smoother" };
+            let told = failure::told(&plan.model, &place, what, Some(choice), error);
+            let set_out = failure::set_out(&plan.model, &outcome.failed_at, &error.fault);
+            let finished = match outcome.estimates.len() {
+                0 => "no row".to_owned(),
+                rows => count(rows, "row"),
+            };
+            let of = track.id.as_ref().map_or(String::new(), |id| format!(" of track {id}"));
+            self.failures.push(format!("{told}{set_out}\n  {finished}{of} finished before"));
         }
-        progress.finish();
-        Self { answers, failures, goals: goals.to_vec(), at: there }
+        if manner.at.is_some() {
+            let estimates = kept(outcome.at, manner.whole);
+            self.at.push(Answer { estimates, ..Answer::default() });
+        }
+        let mut row = begin.row;
+        let from_first = matches!(goal, Goal::Point(_));
+        if from_first {
+            // a fixed point has no estimate before its time
+            let ran = outcome.failure.as_ref().map_or(track.rows.len() - begin.row, |(row, _)| *row);
+            row += ran.saturating_sub(outcome.estimates.len());
+        }
+        let started = begin.started && row == begin.row;
+        let estimates = kept(outcome.estimates, manner.whole);
+        self.answers.push(Answer { estimates, row, started, from_first });
     }
 
     /// All estimates.
@@ -113,4 +128,17 @@ impl Session {
             .filter_map(|i| Some(Accuracy::of(&self.answers[i].estimates, &self.truth_at_rows(plan, i)?)));
         Accuracy::pooled(accuracies)
     }
+}
+
+/// Leaves the numbers that the command goes on to use; without the `whole` of them those of a CSV, a figure and a verdict.
+fn kept(mut estimates: Estimates, whole: bool) -> Estimates {
+    estimates.factor = Vec::new();
+    if !whole {
+        estimates.filtered_cov = Vec::new();
+        estimates.predicted_mean = Vec::new();
+        estimates.predicted_cov = Vec::new();
+        estimates.innovation = Vec::new();
+        estimates.innovation_cov = Vec::new();
+    }
+    estimates
 }

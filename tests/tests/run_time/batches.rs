@@ -143,7 +143,13 @@ fn a_batch_is_cancelled_before_the_next_row() {
         // the first track ends, the second is cancelled at its fifth row, the third is never begun
         let sensor = Cancels { sensor: &problem.sensor, at: 35, seen: AtomicUsize::new(0), cancel: &cancel };
         let tracks = [Track::new(&problem.model, &sensor, &data, &prior); 3];
-        let batch = Batch { goal, threads: one, vectors: InstructionSet::Portable, cancel: Some(&cancel) };
+        let batch = Batch {
+            goal,
+            threads: one,
+            vectors: InstructionSet::Portable,
+            cancel: Some(&cancel),
+            rows: None,
+        };
         let found = choice.run_batch(&tracks, &batch);
         let done: Vec<bool> = found.iter().map(Option::is_some).collect();
         assert_eq!(done, [true, false, false], "{goal:?}");

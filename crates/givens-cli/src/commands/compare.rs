@@ -5,8 +5,9 @@ use crate::files;
 use crate::message::{Stop, count, digits, say};
 use crate::method::{Named, Typed, choose, setting};
 use crate::plan::{Plan, model};
-use crate::session::Session;
+use crate::session::{Manner, Session};
 use crate::stdout;
+use core::num::NonZeroUsize;
 use givens::metrics::{Consistency, Verdict};
 use givens::registry::{Choice, Setting, find};
 use givens::scalar::Shown;
@@ -28,15 +29,16 @@ pub fn compare(args: &CompareArgs) -> Result<(), Stop> {
     let mut table = vec![header(&plan)];
     let mut failures = Vec::new();
     for (name, choice) in args.methods.iter().zip(&choices) {
-        let (line, failed) = line(&plan, name.trim(), choice);
+        let (line, failed) = line(&plan, name.trim(), choice, args.threads)?;
         table.push(line);
         failures.extend(failed.into_iter().map(|failure| format!("{}: {failure}", name.trim())));
     }
     stdout::write(|out| aligned(out, &table))?;
     let rows = plan.tracks.tracks.iter().map(|track| track.rows.len()).sum();
     let pair = if plan.truth.is_some() { "; RMSE and NEES of the filter | of the smoother" } else { "" };
+    let side_by_side = if plan.tracks.tracks.len() > 1 { ", tracks side by side" } else { "" };
     let timed = "µs/row: the filter alone, once, without reading and writing";
-    say(&format!("{}; {timed}{pair}", count(rows, "row")));
+    say(&format!("{}; {timed}{side_by_side}{pair}", count(rows, "row")));
     if failures.is_empty() { Ok(()) } else { Err(Stop::failures(&failures)) }
 }
 
@@ -94,10 +96,16 @@ fn header(plan: &Plan) -> Vec<String> {
     header
 }
 
-fn line(plan: &Plan, name: &str, choice: &Choice) -> (Vec<String>, Vec<String>) {
-    let goals = |goal: Goal| vec![goal; plan.tracks.tracks.len()];
+fn line(
+    plan: &Plan,
+    name: &str,
+    choice: &Choice,
+    threads: Option<NonZeroUsize>,
+) -> Result<(Vec<String>, Vec<String>), Stop> {
+    let manner = Manner { at: None, threads, whole: false };
+    let run = |goal: Goal| Session::run(plan, choice, &vec![goal; plan.tracks.tracks.len()], manner);
     let begun = Instant::now();
-    let filtered = Session::run(plan, choice, &goals(Goal::Filter), None);
+    let filtered = run(Goal::Filter)?;
     let seconds = begun.elapsed().as_secs_f64();
     let rows: usize = filtered.estimates().map(Estimates::len).sum();
     let consistency = Consistency::of(filtered.estimates());
@@ -119,7 +127,7 @@ fn line(plan: &Plan, name: &str, choice: &Choice) -> (Vec<String>, Vec<String>) 
     ];
     let mut failures = filtered.failures.clone();
     if let Some(truth) = &plan.truth {
-        let smoothed = Session::run(plan, choice, &goals(Goal::Interval), None);
+        let smoothed = run(Goal::Interval)?;
         let (f, s) = (filtered.accuracy(plan), smoothed.accuracy(plan));
         if filtered.failures.is_empty() {
             failures.extend(smoothed.failures);
@@ -132,7 +140,7 @@ fn line(plan: &Plan, name: &str, choice: &Choice) -> (Vec<String>, Vec<String>) 
         }
         line.push(pair(f.map(|f| f.nees / f.nees_dof), s.map(|s| s.nees / s.nees_dof)));
     }
-    (line, failures)
+    Ok((line, failures))
 }
 
 /// Columns as wide as their widest cell; the first one to the left, the others to the right.

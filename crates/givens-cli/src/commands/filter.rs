@@ -5,7 +5,7 @@ use crate::files::{self, Sink};
 use crate::instants::Instants;
 use crate::message::Stop;
 use crate::plan::Plan;
-use crate::session::Session;
+use crate::session::{Manner, Session};
 use crate::{figure, report};
 use givens::Goal;
 use givens_io::{Format, write_answers};
@@ -40,7 +40,8 @@ fn run(args: &FilterArgs, goals: impl Fn(&Plan) -> Result<Vec<Goal>, Stop>) -> R
     let sink = Sink::open(output)?;
     let canvases = args.plots.iter().map(|path| Ok((path, Sink::open(Some(path))?)));
     let canvases = canvases.collect::<Result<Vec<_>, Stop>>()?;
-    let session = Session::run(&plan, &plan.choice, &goals, at.as_ref());
+    let manner = Manner { at: at.as_ref(), threads: args.threads, whole: format == Format::Jsonl };
+    let session = Session::run(&plan, &plan.choice, &goals, manner)?;
     sink.write(|out| match &at {
         Some(at) => write_answers(out, format, &plan.model, &at.tracks(&plan), &session.at),
         None => write_answers(out, format, &plan.model, &plan.tracks, &session.answers),

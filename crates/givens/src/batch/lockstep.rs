@@ -5,7 +5,7 @@ use super::record::Lanes;
 use crate::filter::{Filter, Over, Prior};
 use crate::model::Observation;
 use crate::rule::Rule;
-use crate::run::{Goal, Outcome, Stop, stopped};
+use crate::run::{Goal, Outcome, Watch};
 use crate::scalar::{InstructionSet, Job, LaneMask, MAX_WIDTH, Mask, Pack};
 use crate::smoother::{History, Smoothed};
 use core::ops::ControlFlow;
@@ -15,7 +15,7 @@ pub(super) struct Lockstep<'s, 't, X, M, H> {
     pub method: X,
     pub tracks: &'s [Track<'t, M, H>],
     pub goal: Goal,
-    pub stop: Stop<'s>,
+    pub watch: Watch<'s>,
 }
 
 /// Lanes of the packs of an instruction set; one where it is none of this machine's registers.
@@ -39,7 +39,7 @@ impl<X: Over<M>, M, H: Observation> Job<f64> for Lockstep<'_, '_, X, M, H> {
 
     #[inline(always)]
     fn run<P: Pack<Element = f64>>(self) -> Self::Output {
-        let Self { method, tracks, goal, stop } = self;
+        let Self { method, tracks, goal, watch } = self;
         let nothing = || tracks.iter().map(|_| None).collect();
         let Some((mut filter, begun)) = begin::<P, X, M, H>(method, tracks, goal) else {
             return nothing();
@@ -54,7 +54,7 @@ impl<X: Over<M>, M, H: Observation> Job<f64> for Lockstep<'_, '_, X, M, H> {
         let mut rows = Rows::<P>::begin(tracks, filter.controls(), begun);
         let mut lanes = Lanes::<P>::new(tracks, goal);
         for k in 0..longest {
-            if stopped(stop) || rows.well == 0 {
+            if watch.stopped() || rows.well == 0 {
                 return nothing();
             }
             rows.read(tracks, k);
@@ -65,6 +65,7 @@ impl<X: Over<M>, M, H: Observation> Job<f64> for Lockstep<'_, '_, X, M, H> {
             let taught = filter.update_lanes(tracks[0].sensors, &rows.to, &rows.z, &rows.present);
             rows.well &= !((moved | taught).bits() & rows.active);
             lanes.updated(&filter, k, &rows.present, rows.active);
+            watch.count(rows.active.count_ones() as usize);
             rows.next();
         }
         let mut well = rows.well;
@@ -73,9 +74,9 @@ impl<X: Over<M>, M, H: Observation> Job<f64> for Lockstep<'_, '_, X, M, H> {
             let done = history.smooth(&filter, longest - 1, |_, smoothed: &Smoothed<P>| {
                 way.extend_from_slice(smoothed.belief.mean);
                 way.extend_from_slice(smoothed.belief.factor);
-                if stopped(stop) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+                if watch.stopped() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
             });
-            if stopped(stop) {
+            if watch.stopped() {
                 return nothing();
             }
             well &= if done.is_ok() { lanes.smoothed(&way) } else { 0 };

@@ -8,9 +8,9 @@ mod workers;
 use crate::Data;
 use crate::filter::{Fault, Gaussian, Over, StepError};
 use crate::model::Observation;
-use crate::run::{Goal, Outcome, run_until, stopped};
+use crate::run::{Goal, Outcome, Watch, run_until};
 use core::num::NonZeroUsize;
-use core::sync::atomic::AtomicBool;
+use core::sync::atomic::{AtomicBool, AtomicUsize};
 use lockstep::Lockstep;
 use pack::{packable, units};
 use workers::each;
@@ -87,6 +87,8 @@ pub struct Batch<'a> {
     pub vectors: InstructionSet,
     /// Cancels the batch when it is set, before the next row of each track.
     pub cancel: Option<&'a AtomicBool>,
+    /// Counts the rows of all tracks as they are taken in, to show how far the batch is. What is done again, alone, counts again.
+    pub rows: Option<&'a AtomicUsize>,
 }
 
 impl Default for Batch<'_> {
@@ -99,6 +101,7 @@ impl Default for Batch<'_> {
             threads: None,
             vectors: vectors.unwrap_or(InstructionSet::Portable),
             cancel: None,
+            rows: None,
         }
     }
 }
@@ -129,7 +132,7 @@ impl Batch<'_> {
     {
         let width = if packable(&method, self.goal) { lockstep::width(self.vectors) } else { 1 };
         let pack = |of: &[Track<M, H>]| {
-            let job = Lockstep { method, tracks: of, goal: self.goal, stop: self.cancel };
+            let job = Lockstep { method, tracks: of, goal: self.goal, watch: self.watch() };
             self.vectors.run_in_registers(job).unwrap_or_default()
         };
         self.run_by(tracks, width, pack, alone)
@@ -159,18 +162,22 @@ impl Batch<'_> {
         outcomes
     }
 
+    fn watch(&self) -> Watch<'_> {
+        Watch { cancel: self.cancel, rows: self.rows }
+    }
+
     /// One track by itself.
     pub(crate) fn alone<X: Over<M>, M, H: Observation>(
         &self,
         method: X,
         track: &Track<M, H>,
     ) -> Option<Outcome> {
-        if stopped(self.cancel) {
+        if self.watch().stopped() {
             return None;
         }
         let Track { model, sensors, data, prior, parameters, at } = *track;
         let (rows, t0) = (data.rows().collect::<Vec<_>>(), data.start());
-        run_until(method, model, sensors, &rows, t0, prior, parameters, self.goal, at, self.cancel)
+        run_until(method, model, sensors, &rows, t0, prior, parameters, self.goal, at, self.watch())
     }
 }
 

@@ -5,7 +5,7 @@ use super::dispatch::Job;
 use crate::Row;
 use crate::filter::{Fault, Gaussian, Over, StepError};
 use crate::model::{AnyObservation, AnySde, AnyTransition, Observation, Sde, Transition};
-use crate::run::{Goal, Outcome, run_until};
+use crate::run::{Goal, Outcome, Watch, run_until};
 
 impl Choice {
     /// Runs a discrete method over a trajectory, `at` these times besides; see [`run_at`](crate::run_at). A continuous one fails at the first row.
@@ -81,6 +81,6 @@ impl<M> Job<M> for Span<'_, M> {
     fn with<X: Over<M> + Send + Sync + 'static>(self, method: X) -> Outcome {
         let outcome = Outcome::new(self.prior.mean().len(), self.sensors.measures(), self.goal);
         let Span { model, sensors, rows, t0, prior, goal, at } = self;
-        run_until(method, model, sensors, rows, t0, prior, &[], goal, at, None).unwrap_or(outcome)
+        run_until(method, model, sensors, rows, t0, prior, &[], goal, at, Watch::default()).unwrap_or(outcome)
     }
 }

@@ -1,7 +1,7 @@
 //! States at any time, beside the recursion over the rows: no other number changes by asking.
 
 use super::own::OwnFilter;
-use super::recorder::{Stop, push, put, stopped};
+use super::recorder::{Watch, push, put};
 use crate::filter::{Belief, Form, Over, StepError};
 use crate::model::Observation;
 use crate::smoother::{History, Smoothed};
@@ -45,11 +45,11 @@ impl<'t> Between<'t> {
         sensors: &H,
         next: Option<(Row, &[bool])>,
         finished: &Estimates,
-        stop: Stop,
+        watch: Watch,
     ) -> Result<(), StepError> {
         let n = filter.mean().len();
         let until = next.map_or(f64::INFINITY, |(row, _)| row.time);
-        while let Some(&t) = self.times.get(self.out.len()).filter(|&&t| t < until && !stopped(stop)) {
+        while let Some(&t) = self.times.get(self.out.len()).filter(|&&t| t < until && !watch.stopped()) {
             let last = finished.time.last() == Some(&t);
             self.rows.push(if last { finished.len().checked_sub(1) } else { None });
             let mut filter = filter.clone();

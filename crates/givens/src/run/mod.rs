@@ -8,7 +8,7 @@ mod sample;
 
 pub use goal::{Goal, Outcome};
 pub(crate) use own::{OwnFilter, Start, scatter, start_own};
-pub(crate) use recorder::{Stop, stopped};
+pub(crate) use recorder::Watch;
 pub use sample::{Draws, Samples, sample};
 
 use crate::filter::{Gaussian, Over, StepError};
@@ -115,12 +115,11 @@ pub fn run_at<'a, X: Over<M>, M, H: Observation>(
     at: &[f64],
 ) -> Outcome {
     let rows: Vec<Row> = rows.collect();
-    run_until(method, model, sensors, &rows, t0, prior, &[], goal, at, None)
+    run_until(method, model, sensors, &rows, t0, prior, &[], goal, at, Watch::default())
         .unwrap_or_else(|| Outcome::new(prior.mean().len(), sensors.measures(), goal))
 }
 
-/// [`run_at`] with parameters in place of the model's, if there are any, that is cancelled when `stop` is set: then there is no
-/// outcome.
+/// [`run_at`] with parameters in place of the model's, if there are any, that may be cancelled: then there is no outcome.
 pub(crate) fn run_until<X: Over<M>, M, H: Observation>(
     method: X,
     model: &M,
@@ -131,19 +130,19 @@ pub(crate) fn run_until<X: Over<M>, M, H: Observation>(
     parameters: &[f64],
     goal: Goal,
     at: &[f64],
-    stop: Stop,
+    watch: Watch,
 ) -> Option<Outcome> {
     let mut outcome = Outcome::new(prior.mean().len(), sensors.measures(), goal);
     let wanted = if matches!(goal, Goal::Filter | Goal::Interval) { at } else { &[] };
     let out = &outcome.estimates;
     let between = Between::new(wanted, Estimates::new(out.states(), out.measures(), out.is_smoothed()));
     let count = if goal == Goal::Filter { 0 } else { rows.len() };
-    match Recorder::start(method, model, sensors, t0, prior, parameters, goal, count, between, stop) {
+    match Recorder::start(method, model, sensors, t0, prior, parameters, goal, count, between, watch) {
         Ok(mut recorder) => {
             recorder.forward(rows, &mut outcome);
             outcome.at = recorder.finish(&mut outcome);
         }
         Err(error) => outcome.failure = Some((0, error)),
     }
-    if stopped(stop) { None } else { Some(outcome) }
+    if watch.stopped() { None } else { Some(outcome) }
 }

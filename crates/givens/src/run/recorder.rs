@@ -8,7 +8,7 @@ use crate::model::Observation;
 use crate::smoother::{FixedPoint, History, Smoothed};
 use crate::{Estimates, Row};
 use core::ops::ControlFlow;
-use core::sync::atomic::{AtomicBool, Ordering};
+use core::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 /// A filter, what it has recorded, and what it is to find out.
 pub(super) struct Recorder<'t, 'm, X: Method, M, H> {
@@ -24,15 +24,29 @@ pub(super) struct Recorder<'t, 'm, X: Method, M, H> {
     predicted: bool,
     /// States at other times.
     between: Between<'t>,
-    /// Once it is set, no further row is begun, on neither way.
-    stop: Stop<'t>,
+    /// Once it says stop, no further row is begun, on neither way.
+    watch: Watch<'t>,
 }
 
-/// What cancels a run when it is set.
-pub(crate) type Stop<'t> = Option<&'t AtomicBool>;
+/// What others see of a run at work, and have to say to it.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Watch<'t> {
+    /// Cancels the run when it is set.
+    pub cancel: Option<&'t AtomicBool>,
+    /// Counts the rows that are taken in.
+    pub rows: Option<&'t AtomicUsize>,
+}
 
-pub(crate) fn stopped(stop: Stop) -> bool {
-    stop.is_some_and(|stop| stop.load(Ordering::Relaxed))
+impl Watch<'_> {
+    pub fn stopped(&self) -> bool {
+        self.cancel.is_some_and(|cancel| cancel.load(Ordering::Relaxed))
+    }
+
+    pub fn count(&self, rows: usize) {
+        if let Some(count) = self.rows {
+            count.fetch_add(rows, Ordering::Relaxed);
+        }
+    }
 }
 
 impl<'t, 'm, X: Over<M>, M, H: Observation> Recorder<'t, 'm, X, M, H> {
@@ -47,7 +61,7 @@ impl<'t, 'm, X: Over<M>, M, H: Observation> Recorder<'t, 'm, X, M, H> {
         goal: Goal,
         rows: usize,
         between: Between<'t>,
-        stop: Stop<'t>,
+        watch: Watch<'t>,
     ) -> Result<Self, StepError> {
         let mut filter = start_own(method, model, sensors, Start::Prior(t0, prior), goal != Goal::Filter)?;
         if !parameters.is_empty() {
@@ -71,7 +85,7 @@ impl<'t, 'm, X: Over<M>, M, H: Observation> Recorder<'t, 'm, X, M, H> {
             last: (prior.mean().to_vec(), prior.factor().to_vec(), prior.cov().to_vec()),
             predicted: false,
             between,
-            stop,
+            watch,
         };
         recorder.begin_point(t0)?;
         Ok(recorder)
@@ -88,21 +102,22 @@ impl<'t, 'm, X: Over<M>, M, H: Observation> Recorder<'t, 'm, X, M, H> {
 
     /// Takes in all rows, up to one that fails, and goes on to the times that are wanted behind the last.
     pub fn forward(&mut self, rows: &[Row], outcome: &mut Outcome) {
-        let (mut before, stop) = (None, self.stop);
+        let (mut before, watch) = (None, self.watch);
         outcome.estimates.reserve(rows.len());
-        for (k, &row) in rows.iter().take_while(|_| !stopped(stop)).enumerate() {
+        for (k, &row) in rows.iter().take_while(|_| !watch.stopped()).enumerate() {
             if let Err(error) = self.row(before, row, &mut outcome.estimates) {
                 outcome.failure = Some((k, error));
                 outcome.failed_at = self.filter.mean().to_vec();
                 break;
             }
             outcome.log_likelihood += self.filter.innovation().log_likelihood;
+            watch.count(1);
             before = Some(row);
         }
         let out = &mut outcome.estimates;
         out.truncate(out.len());
         if outcome.failure.is_none() {
-            let beyond = self.between.ahead(&self.filter, self.sensors, None, out, stop);
+            let beyond = self.between.ahead(&self.filter, self.sensors, None, out, watch);
             outcome.failure = beyond.err().map(|error| (out.len().saturating_sub(1), error));
         }
     }
@@ -115,7 +130,7 @@ impl<'t, 'm, X: Over<M>, M, H: Observation> Recorder<'t, 'm, X, M, H> {
         for (there, z) in self.present.iter_mut().zip(row.z) {
             *there = !z.is_nan();
         }
-        self.between.ahead(&self.filter, self.sensors, Some((row, &self.present)), out, self.stop)?;
+        self.between.ahead(&self.filter, self.sensors, Some((row, &self.present)), out, self.watch)?;
         match &mut self.point {
             Some(point) => point.predict(&mut self.filter, row.time)?,
             None => self.history.predict(&mut self.filter, row.time)?,
@@ -188,13 +203,13 @@ impl<'t, 'm, X: Over<M>, M, H: Observation> Recorder<'t, 'm, X, M, H> {
             Goal::Filter | Goal::Point(_) => return Ok(()),
         };
         let time = out.time[last];
-        let (mut wrong, between, stop) = (None, &mut self.between, self.stop);
+        let (mut wrong, between, watch) = (None, &mut self.between, self.watch);
         let put = |age: usize, smoothed: &Smoothed<f64>| {
             let row = last - age;
             put::<X::Form>(out, row, &smoothed.belief);
             let filtered = (out.filtered_mean(row), out.filtered_cov(row));
             wrong = wrong.or(between.back::<X::Form>(row, out.time[row], smoothed, filtered).err());
-            if stopped(stop) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            if watch.stopped() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         };
         let start = Prior { time, mean: &self.last.0, factor: &self.last.1, cov: &self.last.2 };
         if failed {

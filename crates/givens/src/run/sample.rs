@@ -2,7 +2,7 @@
 
 use super::between::Between;
 use super::goal::{Goal, Outcome};
-use super::recorder::Recorder;
+use super::recorder::{Recorder, Watch};
 use crate::filter::{Gaussian, Over, StepError};
 use crate::model::Observation;
 use crate::simulate::Stream;
@@ -103,8 +103,18 @@ pub fn sample<'a, X: Over<M>, M, H: Observation>(
     let (n, d, count) = (prior.mean().len(), sensors.measures(), rows.len());
     let mut outcome = Outcome::new(n, d, Goal::Interval);
     let between = Between::new(&[], Estimates::new(n, d, true));
-    let started =
-        Recorder::start(method, model, sensors, t0, prior, &[], Goal::Interval, count, between, None);
+    let started = Recorder::start(
+        method,
+        model,
+        sensors,
+        t0,
+        prior,
+        &[],
+        Goal::Interval,
+        count,
+        between,
+        Watch::default(),
+    );
     let drawn = started.map_err(|error| (0, error)).and_then(|mut recorder| {
         recorder.forward(&rows, &mut outcome);
         match outcome.failure {

@@ -234,6 +234,42 @@ fn wrong_parameters_and_lists() {
 }
 
 #[test]
+fn a_number_of_threads_is_a_whole_one_above_zero() {
+    const MUST: &str = "must be a whole number above zero; left out, all cores";
+    check(
+        "threads",
+        &[
+            ("none", NONE, "filter model.toml data.csv -o out.csv --threads 0", &["'--threads <N>'", MUST]),
+            ("fewer", NONE, "smooth model.toml data.csv -o out.csv --threads -1", &["'--threads <N>'", MUST]),
+            (
+                "broken",
+                NONE,
+                "filter model.toml data.csv -o out.csv --threads 1.5",
+                &["'--threads <N>'", MUST],
+            ),
+            (
+                "word",
+                NONE,
+                "compare model.toml data.csv --methods ckf --threads all",
+                &["'--threads <N>'", MUST],
+            ),
+            (
+                "large",
+                NONE,
+                "filter model.toml data.csv -o out.csv --threads 99999999999999999999999",
+                &["'--threads <N>'", "is too large a number"],
+            ),
+            (
+                "other_command",
+                NONE,
+                "simulate model.toml --steps 3 --every 1 --seed 1 --threads 2",
+                &["unexpected argument '--threads'"],
+            ),
+        ],
+    );
+}
+
+#[test]
 fn an_empty_list_of_methods_is_told() {
     let found = folder("methods", &NONE).run_args(&["compare", "model.toml", "data.csv", "--methods", ""]);
     assert_eq!((found.code, found.stdout.as_str()), (2, ""));

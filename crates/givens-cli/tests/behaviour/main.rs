@@ -16,6 +16,7 @@ mod smoothers;
 mod start;
 mod streams;
 mod texts;
+mod tracks;
 mod truth;
 mod zoo;
 

@@ -50,11 +50,16 @@ fn tracks_may_be_interleaved_and_come_out_in_the_inputs_order() {
         let both = found.cells();
         for (k, row) in both[1..].iter().enumerate() {
             let same = &alone[1 + k / 2];
-            assert_eq!(
-                (&row[0], row[1].as_str(), &row[2..]),
-                (&same[0], ["b", "a"][k % 2], &same[1..]),
-                "{command}"
-            );
+            assert_eq!((&row[0], row[1].as_str()), (&same[0], ["b", "a"][k % 2]), "{command}");
+            // side by side, the last digit may be another one
+            for (cell, same) in row[2..].iter().zip(&same[1..]) {
+                let number = |cell: &str| cell.parse::<f64>();
+                let alike = match (number(cell), number(same)) {
+                    (Ok(cell), Ok(same)) => near(cell, same),
+                    _ => cell == same,
+                };
+                assert!(alike, "{command}: {cell} for {same}");
+            }
         }
         assert_eq!(both.len() - 1, 2 * (alone.len() - 1));
     }

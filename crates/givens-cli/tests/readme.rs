@@ -31,12 +31,23 @@ fn the_readme_shows_what_its_command_says() {
 
 #[test]
 fn the_survey_shows_what_its_command_says() {
+    shows("survey", ["smooth", "examples/survey/survey.toml", "examples/survey/fixes.csv"]);
+}
+
+#[test]
+fn the_fleet_shows_what_its_command_says() {
+    shows("fleet", ["filter", "examples/fleet/fleet.toml", "examples/fleet/reports.csv"]);
+}
+
+/// The example's first block of text is what stderr says.
+fn shows(name: &str, words: [&str; 3]) {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-    let readme = std::fs::read_to_string(root.join("examples/survey/README.md")).unwrap();
+    let readme = std::fs::read_to_string(root.join(format!("examples/{name}/README.md"))).unwrap();
     let output = Command::new(env!("CARGO_BIN_EXE_givens"))
         .current_dir(&root)
-        .args(["smooth", "examples/survey/survey.toml", "examples/survey/fixes.csv", "-o"])
-        .arg(Path::new(env!("CARGO_TARGET_TMPDIR")).join("survey.csv"))
+        .args(words)
+        .arg("-o")
+        .arg(Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{name}.csv")))
         .output()
         .unwrap();
     let said = String::from_utf8(output.stderr).unwrap();

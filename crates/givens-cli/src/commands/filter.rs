@@ -43,8 +43,8 @@ fn run(args: &FilterArgs, goals: impl Fn(&Plan) -> Result<Vec<Goal>, Stop>) -> R
     let manner = Manner { at: at.as_ref(), threads: args.threads, whole: format == Format::Jsonl };
     let session = Session::run(&plan, &plan.choice, &goals, manner)?;
     sink.write(|out| match &at {
-        Some(at) => write_answers(out, format, &plan.model, &at.tracks(&plan), &session.at),
-        None => write_answers(out, format, &plan.model, &plan.tracks, &session.answers),
+        Some(at) => write_answers(out, format, &plan.model, &at.tracks(&plan), &session.at, args.threads),
+        None => write_answers(out, format, &plan.model, &plan.tracks, &session.answers, args.threads),
     })?;
     for (path, canvas) in canvases {
         let picture = figure::draw(path, &plan, &session)?;

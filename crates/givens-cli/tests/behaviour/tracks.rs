@@ -162,6 +162,25 @@ fn tracks_may_stand_one_below_the_other_or_mixed() {
     assert_eq!(found[1..].iter().map(|row| row[..2].join(" ")).collect::<Vec<_>>(), order);
 }
 
+/// More rows than the lines of one block.
+#[test]
+fn a_large_table_is_written_in_its_order_whatever_the_number_of_threads() {
+    let folder = folder("large");
+    folder.run("simulate model.toml --steps 100 --every 1 --runs 200 --seed 1 -o runs.csv").good();
+    let keys = |text: &str| -> Vec<String> {
+        text.lines().skip(1).map(|line| line.split(',').take(2).collect::<Vec<_>>().join(" ")).collect()
+    };
+    for format in ["csv", "jsonl"] {
+        let line = format!("filter model.toml runs.csv --format {format} --threads");
+        let one = folder.run(&format!("{line} 1")).good().stdout;
+        assert_eq!(one.lines().count(), 20_000 + usize::from(format == "csv"));
+        assert!(format == "jsonl" || keys(&one) == keys(&folder.read("runs.csv")));
+        for threads in [2, 5] {
+            assert!(folder.run(&format!("{line} {threads}")).good().stdout == one, "{format} {threads}");
+        }
+    }
+}
+
 /// A walk above 20 has no transition: two tracks of six end there.
 #[test]
 fn tracks_that_fail_in_a_pack_are_named_and_their_neighbours_go_on() {

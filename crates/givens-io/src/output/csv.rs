@@ -1,40 +1,83 @@
 //! Answers as CSV.
 
-use std::io::{self, Write};
+use core::fmt::Write as _;
+use std::io;
 
-use super::{Line, digits, told};
+use givens::scalar::Shown;
+
+use super::{Line, told};
 use crate::model_file::Model;
 use crate::table::Tracks;
 
-pub(super) fn write(out: &mut dyn Write, model: &Model, tracks: &Tracks, lines: &[Line]) -> io::Result<()> {
-    let mut table = csv::Writer::from_writer(out);
+/// The header.
+pub(super) fn header(model: &Model, tracks: &Tracks) -> io::Result<Vec<u8>> {
     let mut header = vec!["time".to_owned()];
     header.extend(tracks.has_track_id.then(|| "track_id".to_owned()));
     header.extend(tracks.has_sensor.then(|| "sensor".to_owned()));
     header.extend(model.states.iter().cloned());
     header.extend(model.states.iter().map(|name| format!("{name}_std")));
     header.extend(["nis", "nis_dof", "log_likelihood"].map(str::to_owned));
+    let mut table = csv::Writer::from_writer(Vec::new());
     table.write_record(&header).map_err(told)?;
+    table.into_inner().map_err(csv::IntoInnerError::into_error)
+}
+
+/// The rows of these lines.
+pub(super) fn rows(model: &Model, tracks: &Tracks, lines: &[Line]) -> io::Result<Vec<u8>> {
+    let mut rows = Rows { table: csv::Writer::from_writer(Vec::new()), digits: String::new() };
     let n = model.states.len();
-    let mut cells: Vec<String> = Vec::with_capacity(header.len());
     for line in lines {
-        cells.clear();
-        cells.push(line.row.time_text.clone());
-        cells.extend(tracks.has_track_id.then(|| line.track.unwrap_or_default().to_owned()));
-        cells.extend(tracks.has_sensor.then(|| line.sensor.unwrap_or_default().to_owned()));
+        rows.text(&line.row.time_text)?;
+        if tracks.has_track_id {
+            rows.text(line.track.unwrap_or_default())?;
+        }
+        if tracks.has_sensor {
+            rows.text(line.sensor.unwrap_or_default())?;
+        }
         match line.estimate {
             Some((est, k)) => {
-                cells.extend(est.mean(k).iter().map(|&x| digits(x)));
-                cells.extend((0..n).map(|i| digits(est.std(k, i))));
-                let measured = !line.started;
-                let nis = est.nis[k];
-                cells.push(if nis.is_nan() { String::new() } else { digits(nis) });
-                cells.push(if measured { est.nis_dof[k].to_string() } else { String::new() });
-                cells.push(if measured { digits(est.log_likelihood[k]) } else { String::new() });
+                est.mean(k).iter().try_for_each(|&x| rows.number(x))?;
+                (0..n).try_for_each(|i| rows.number(est.std(k, i)))?;
+                match est.nis[k] {
+                    nis if nis.is_nan() => rows.text("")?,
+                    nis => rows.number(nis)?,
+                }
+                if line.started {
+                    rows.text("")?;
+                    rows.text("")?;
+                } else {
+                    rows.number(est.nis_dof[k] as f64)?;
+                    rows.number(est.log_likelihood[k])?;
+                }
             }
-            None => cells.resize(header.len(), String::new()),
+            None => (0..2 * n + 3).try_for_each(|_| rows.text(""))?,
         }
-        table.write_record(&cells).map_err(told)?;
+        rows.end()?;
     }
-    table.flush()
+    rows.table.into_inner().map_err(csv::IntoInnerError::into_error)
+}
+
+/// A table in the making, cell by cell.
+struct Rows {
+    table: csv::Writer<Vec<u8>>,
+    /// Of one number: its memory is used again.
+    digits: String,
+}
+
+impl Rows {
+    fn text(&mut self, text: &str) -> io::Result<()> {
+        self.table.write_field(text).map_err(told)
+    }
+
+    /// A number that reads back exactly.
+    fn number(&mut self, x: f64) -> io::Result<()> {
+        self.digits.clear();
+        // writing to a string cannot fail
+        let _ = write!(self.digits, "{}", Shown(x));
+        self.table.write_field(&self.digits).map_err(told)
+    }
+
+    fn end(&mut self) -> io::Result<()> {
+        self.table.write_record(None::<&[u8]>).map_err(told)
+    }
 }

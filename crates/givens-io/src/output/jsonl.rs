@@ -1,7 +1,7 @@
 //! Answers as JSON lines: one object per row, its keys in one order, numbers that read back exactly, null where there
 //! is none.
 
-use std::io::{self, Write};
+use std::io;
 
 use givens::Estimates;
 use serde::ser::{Serialize, SerializeMap, Serializer};
@@ -9,14 +9,16 @@ use serde::ser::{Serialize, SerializeMap, Serializer};
 use super::Line;
 use crate::model_file::Model;
 
-pub(super) fn write(out: &mut dyn Write, model: &Model, smoothed: bool, lines: &[Line]) -> io::Result<()> {
+/// The objects of these lines.
+pub(super) fn rows(model: &Model, smoothed: bool, lines: &[Line]) -> io::Result<Vec<u8>> {
     let columns: Vec<&str> =
         model.sensors.iter().flat_map(|sensor| sensor.columns.iter().map(String::as_str)).collect();
+    let mut out = Vec::new();
     for line in lines {
-        serde_json::to_writer(&mut *out, &Object { columns: &columns, smoothed, line })?;
-        out.write_all(b"\n")?;
+        serde_json::to_writer(&mut out, &Object { columns: &columns, smoothed, line })?;
+        out.push(b'\n');
     }
-    Ok(())
+    Ok(out)
 }
 
 /// One row of output.

@@ -1,10 +1,12 @@
 //! Answers: the estimates of all tracks, as CSV or JSON lines, in the order of the table's rows.
 
+mod blocks;
 mod csv;
 mod destination;
 mod jsonl;
 mod simulated;
 
+use core::num::NonZeroUsize;
 use givens::Estimates;
 use givens::scalar::Shown;
 use std::io::{self, Write};
@@ -60,7 +62,8 @@ fn told(error: ::csv::Error) -> io::Error {
     }
 }
 
-/// Writes the answers, one for each of the tracks, as one table in the order of the rows.
+/// Writes the answers, one for each of the tracks, as one table in the order of the rows. The lines are made on so many threads,
+/// all cores where it is not said, and are the same for any.
 ///
 /// # Errors
 /// What the writer says.
@@ -70,6 +73,7 @@ pub fn write_answers(
     model: &Model,
     tracks: &Tracks,
     answers: &[Answer],
+    threads: Option<NonZeroUsize>,
 ) -> io::Result<()> {
     let mut lines = Vec::new();
     for (track, answer) in tracks.tracks.iter().zip(answers) {
@@ -84,10 +88,14 @@ pub fn write_answers(
     }
     lines.sort_by_key(|line| line.row.index);
     match format {
-        Format::Csv => csv::write(out, model, tracks, &lines),
+        Format::Csv => {
+            out.write_all(&csv::header(model, tracks)?)?;
+            blocks::write(out, &lines, threads, |lines| csv::rows(model, tracks, lines))?;
+        }
         Format::Jsonl => {
             let smoothed = answers.iter().any(|answer| answer.estimates.is_smoothed());
-            jsonl::write(out, model, smoothed, &lines)
+            blocks::write(out, &lines, threads, |lines| jsonl::rows(model, smoothed, lines))?;
         }
     }
+    out.flush()
 }

@@ -29,7 +29,7 @@ pub enum Command {
   givens filter turn.toml radar.csv -o track.csv --plot track.svg
   givens filter turn.toml radar.csv --method ukf --set kappa=1 --format jsonl
   givens filter turn.toml radar.csv --at every:0.5    also between the rows
-  givens filter turn.toml radar.csv --threads 4    tracks side by side on four threads
+  givens filter turn.toml radar.csv --threads 4    for the tracks of a table
   givens filter turn.toml - --truth truth.csv < radar.csv > track.csv")]
     Filter(FilterArgs),
     /// Estimate each state from all measurements, before and after it

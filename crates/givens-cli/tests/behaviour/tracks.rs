@@ -19,7 +19,7 @@ fn radar() -> Vec<(f64, usize, String)> {
             let time = 0.25 * (1.0 + a) + (0.5 + 0.125 * a) * k as f64;
             let [x, y] = [30.0 + time + (2.1 * i).sin() + a, 40.0 - 2.0 * time + (1.3 * i).cos()];
             let all = [x.hypot(y) + (0.7 * i).sin(), y.atan2(x), x + 1.0, y - 1.0];
-            let there = |m: usize| k % 4 != 3 && (k + m + track) % 3 != 0;
+            let there = |m: usize| k % 4 != 3 && !(k + m + track).is_multiple_of(3);
             let cells =
                 all.iter().enumerate().map(|(m, z)| if there(m) { z.to_string() } else { String::new() });
             rows.push((time, track, cells.collect::<Vec<_>>().join(",")));

@@ -51,3 +51,17 @@ def test_a_noise_is_not_told_of_a_way_that_it_has_not():
         gv.Sde(lambda t, x: x, diffusion=lambda t: [np.spacing(t), 1, 1], state=NAMES)
     assert caught.value.remedy == "write it with arithmetic and NumPy's elementary functions"
     assert caught.value.argument == "diffusion"
+
+
+def test_a_function_of_scipy_that_takes_numbers_only_is_named_with_the_users_line():
+    linalg = pytest.importorskip("scipy.linalg")
+
+    def noise(t, dt):
+        return linalg.expm(np.eye(2) * dt)
+
+    with pytest.raises(gv.TraceError) as caught:
+        gv.Transition(lambda t, dt, x: [x[0], x[1]], noise_cov=noise, state=["a", "b"])
+    error = caught.value
+    assert error.source == "return linalg.expm(np.eye(2) * dt)"
+    assert "scipy.linalg.expm takes numbers only" in str(error)
+    assert "np.eye(n) + A + A @ A / 2" in error.remedy

@@ -28,6 +28,8 @@ class Place:
     file: str | None = None
     line: int | None = None
     source: str | None = None
+    #: The function of a library at work there, which takes numbers only.
+    library: str | None = None
 
     def __str__(self) -> str:
         if self.file is None:
@@ -43,13 +45,29 @@ def is_users(code: CodeType) -> bool:
 
 
 def here() -> Place:
-    """The innermost line that is neither this package's nor NumPy's."""
+    """The innermost line that is neither this package's nor NumPy's nor SciPy's."""
     frame: FrameType | None = sys._getframe(1)
+    library, scipy = None, _folder_of("scipy")
     while frame is not None:
-        if is_users(frame.f_code):
-            return place_of(frame.f_code, frame.f_lineno)
+        if scipy is not None and frame.f_code.co_filename.startswith(scipy):
+            library = _public(frame)
+        elif is_users(frame.f_code):
+            return replace(place_of(frame.f_code, frame.f_lineno), library=library)
         frame = frame.f_back
     return Place()
+
+
+def _folder_of(library: str) -> str | None:
+    """The folder of a library, if it is in use."""
+    file = getattr(sys.modules.get(library), "__file__", None)
+    return None if file is None else os.path.join(os.path.dirname(file), "")
+
+
+def _public(frame: FrameType) -> str:
+    """The name by which a function of a library is imported."""
+    module = str(frame.f_globals.get("__name__", ""))
+    parts = [part for part in module.split(".") if not part.startswith("_")]
+    return ".".join([*parts, frame.f_code.co_name])
 
 
 def of_traceback(traceback: TracebackType | None) -> Place:

@@ -26,6 +26,8 @@ failures: ContextVar[list[TraceError] | None] = ContextVar("failures", default=N
 def refuse(message: str, remedy: str, place: Place | None = None) -> TraceError:
     """The error for the line at work; the caller raises it."""
     place = here() if place is None else place
+    if place.library is not None:
+        message, remedy = f"{place.library} takes numbers only", _no_expression(place.library)
     error = TraceError(
         f"{place}: {message}",
         function=place.function,
@@ -146,6 +148,7 @@ _INSTEAD = {
     "numpy.linalg.eig": "write the eigenvalues by formula, or pass trace=False",
     "numpy.linalg.pinv": "write A.T @ np.linalg.inv(A @ A.T), or pass trace=False",
     "numpy.linalg.lstsq": "write np.linalg.solve(A.T @ A, A.T @ b)",
+    "scipy.linalg.expm": "write its elements by formula, or a sum, np.eye(n) + A + A @ A / 2 + …, or pass trace=False",
 }
 
 

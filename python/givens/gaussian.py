@@ -23,7 +23,8 @@ class Gaussian:
     mean : array_like, shape (n,)
         The mean.
     cov : array_like, shape (n, n), optional
-        The covariance; it may be singular.
+        The covariance; it may be singular. The two triangles may differ by rounding, about 1e-12 of the standard
+        deviations' product; the lower one counts.
     std : array_like, shape (n,), optional
         The standard deviations of states that are not correlated, in place of `cov`.
 

@@ -43,7 +43,11 @@ def choose(model: Any, joined: Joined, method: str | None, options: Mapping[str,
         )
     for word in (method or "", *options):
         text("method", word, "a name", "gv.methods() lists all methods with their options")
+    parameters = {name for part, _ in (*joined.motion, *joined.measuring) for name in part.parameters}
     for name, value in options.items():
+        if name in parameters and name not in _options():
+            remedy = f"it is a parameter: params={{{name!r}: …}}"
+            raise MethodError(f"there is no option `{name}`", option=name, remedy=remedy)
         _refuse_mistaken(name, value)
     if isinstance(model, ModelFile):
         named = method is not None and method != model.method

@@ -27,7 +27,7 @@ _TRACK = "track_id"
 def is_table(value: object) -> bool:
     """Whether this is a table with named columns."""
     if isinstance(value, Mapping):
-        return any(name in value for name in _TIME)
+        return True
     frame = hasattr(value, "columns") and hasattr(value, "__getitem__")
     return frame or hasattr(value, "column_names") or hasattr(value, "fetchnumpy")
 

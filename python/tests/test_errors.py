@@ -453,6 +453,21 @@ CASES = [
         "`noise['ruler']` has shape (4, 1), not (20, 1) of standard deviations or (20, 1, 1)",
     ),
     (
+        lambda: gv.filter(MODEL, LENGTH, T, Z, prior=PRIOR, k=1.0),
+        gv.MethodError,
+        "there is no option `k`\n  help: it is a parameter: params={'k': …}",
+    ),
+    (
+        lambda: gv.filter(MODEL, LENGTH, {"length": [1.0]}, prior=PRIOR),
+        gv.InputError,
+        "the table has no column `time`: it has `length`\n  help: name the column of times `time`",
+    ),
+    (
+        lambda: gv.filter(MODEL, LENGTH, T, Z, prior=PRIOR, at=[np.nan]),
+        gv.InputError,
+        "time 0 of `at` is NaN\n  help: times increase, from `t0` on",
+    ),
+    (
         lambda: gv.filter(MODEL, LENGTH, T, Z, prior=PRIOR, params={"kk": 1}),
         gv.InputError,
         "`params` names `kk`, which is no parameter of the model or a sensor\n  help: did you mean `k`?",
@@ -465,7 +480,7 @@ CASES = [
     (
         lambda: gv.filter(MODEL, LENGTH, T, Z, prior=PRIOR, at=[-1.0]),
         gv.InputError,
-        "time 0 of `at` is -1, before 0.5 or not finite\n  help: times increase, from `t0` on",
+        "time 0 of `at` is -1, before 0.5\n  help: times increase, from `t0` on",
     ),
     (
         lambda: gv.filter(MODEL, LENGTH, T, Z, prior=PRIOR, t0=np.datetime64("2024-01-01")),

@@ -120,7 +120,8 @@ pub fn times(at: &Numbers<'_>, t0: f64) -> Result<Vec<f64>> {
     let mut last = t0;
     for (k, &t) in at.iter().enumerate() {
         if !(t.is_finite() && t >= last) {
-            let message = format!("time {k} of `at` is {}, before {} or not finite", Shown(t), Shown(last));
+            let wrong = if t.is_finite() { format!(", before {}", Shown(last)) } else { String::new() };
+            let message = format!("time {k} of `at` is {}{wrong}", Shown(t));
             return Err(Input::new("at", message).row(k).help("times increase, from `t0` on").into());
         }
         last = t;

@@ -10,7 +10,7 @@ outlined! {
     ///
     /// Only the lower triangle of `a` (n × n) is read. A pivot is zero if it is within the rounding that errors of
     /// 64 n ε in the elements (relative to the standard deviations) leave in it, and so is its column then; health names
-    /// the first pivot that is negative, not a number, or a zero with a column that is not. Those lanes end in NaN.
+    /// the first pivot that is negative, not finite, or a zero with a column that is not. Those lanes end in NaN.
     ///
     /// ```
     /// use givens_core::kernels::cholesky;
@@ -58,8 +58,9 @@ fn factorise<T: Real>(a: &mut [T], n: usize, rounding: f64, scale: impl Fn(usize
         }
         let (head, tail) = a.split_at_mut((j + 1) * n);
         let row = &mut head[j * n..];
-        let nothing = pivot.abs().le(rounding);
-        health.note(!nothing & !zero.lt(pivot), j);
+        // what overflows is not nothing
+        let nothing = pivot.abs().le(rounding) & pivot.finite();
+        health.note(!nothing & !(zero.lt(pivot) & pivot.finite()), j);
         let root = T::select(nothing, zero, pivot.sqrt());
         let inverse = T::select(nothing, zero, root.recip());
         let vanishes = nothing.any();

@@ -34,12 +34,13 @@ fn swept<T: Real>(a: &mut [T], d: usize, n: usize, scratch: &mut [T]) -> Health<
             sum = z.mul_add(z, sum);
             *norm = sum;
         }
-        let nothing = sum.le(bound * bound * (settled + sum));
+        // what overflows is not nothing
+        let nothing = sum.le(bound * bound * (settled + sum)) & sum.finite();
         if nothing.all() {
             drop_row(a, d, n, q);
             continue;
         }
-        health.note(nothing, q);
+        health.note(nothing | (!sum.finite() & sum.same(sum)), q);
         let mut before = pivot;
         for j in (0..n).rev() {
             let after = norms[j].sqrt();

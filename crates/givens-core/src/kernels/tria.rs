@@ -11,7 +11,8 @@ outlined! {
     /// `a` holds `rows` × `columns` in rows of length `stride` ≥ max(rows, columns); S ends in its first `rows`
     /// columns, zeros behind it. What is left of a row after the earlier reflections and is at most
     /// `columns` ε of the row counts as zero: that column of S is zero and uses up no reflection, so that the factor
-    /// of a deficient A can be divided by. A pack whose lanes disagree on that reports those with the zero as sick.
+    /// of a deficient A can be divided by. A pack whose lanes disagree on that reports those with the zero as sick; so are
+    /// lanes with a row whose squares overflow.
     ///
     /// ```
     /// use givens_core::kernels::tria;
@@ -60,14 +61,15 @@ fn reflect<T: Real>(
     let (above, below) = a.split_at_mut((i + 1) * stride);
     let row = &mut above[i * stride..];
     let settled = sum_of_squares(&row[..used]);
-    let rest = sum_of_squares(&row[used..columns]);
+    let rest = sum_of_squares(&row[used.min(columns)..columns]);
     let bound = T::of(columns as f64 * T::EPSILON);
-    let nothing = rest.le(bound * bound * (settled + rest));
-    if nothing.all() {
+    // what overflows is not nothing
+    let nothing = rest.le(bound * bound * (settled + rest)) & rest.finite();
+    if used >= columns || nothing.all() {
         row[used..].fill(T::zero());
         return false;
     }
-    health.note(nothing, i);
+    health.note(nothing | (!rest.finite() & rest.same(rest)), i);
     let norm = rest.sqrt();
     // v = rest of the row with its head moved away from zero; H = I − v vᵀ / (norm · |v head|)
     let head = row[used];

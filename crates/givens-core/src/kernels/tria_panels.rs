@@ -100,7 +100,8 @@ fn panel<P: Pack<Element = f64>, const H: usize>(
             squares[q] += x * x;
         }
         let rest = panel.along[q];
-        first + q >= columns || rest <= bound * bound * (squares[q] + rest)
+        let little = bound * bound * (squares[q] + rest);
+        first + q >= columns || !(rest > little && rest.is_finite())
     };
     let mut done = 0;
     macro_rules! reflect {

@@ -83,7 +83,8 @@ impl Matrix<'_> {
             let (above, below) = a.split_at_mut((i + 1) * stride);
             let row = &mut above[i * stride..];
             let rest = along[i];
-            if rest <= bound * bound * (plus_dot(0.0, &row[..i], &row[..i]) + rest) {
+            let little = bound * bound * (plus_dot(0.0, &row[..i], &row[..i]) + rest);
+            if !(rest > little && rest.is_finite()) {
                 break;
             }
             let norm = rest.sqrt();

@@ -99,3 +99,11 @@ fn what_is_not_a_number_fails_where_it_stands() {
     }
     assert!(cholesky(&mut [1.0, 0.0, f64::NAN, 1.0], 2).failed().is_some());
 }
+
+#[test]
+fn a_variance_that_is_infinite_is_told_and_is_not_zero() {
+    for huge in [f64::INFINITY, f64::NAN] {
+        let mut p = [1.0, 0.0, 0.0, huge];
+        assert_eq!(cholesky(&mut p, 2).failed(), Some(1));
+    }
+}

@@ -141,3 +141,22 @@ fn what_is_not_a_number_stays_none() {
         assert!((0..bad).all(|i| t.row(i).iter().all(|x| x.is_finite())));
     }
 }
+
+#[test]
+fn a_row_whose_squares_overflow_is_told_and_is_not_zero() {
+    for (d, n) in [(1, 2), (3, 7), (6, 20)] {
+        let size = d + n;
+        let mut a = vec![0.0; size * size];
+        for i in 0..size {
+            for j in 0..=i {
+                a[i * size + j] = if i == j { 1.0 } else { Real::sin((3 * i + j) as f64) };
+            }
+        }
+        for q in 0..d {
+            a[q * size + d..][..n].fill(0.5);
+        }
+        a[d * size - 1] = 1e160;
+        let mut scratch = vec![0.0; sweep_scratch(d, n)];
+        assert_eq!(sweep(&mut a, d, n, &mut scratch).failed(), Some(d - 1), "{d}, {n}");
+    }
+}

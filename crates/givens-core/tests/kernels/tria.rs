@@ -189,3 +189,24 @@ fn what_is_not_a_number_stays_none_in_long_rows_too() {
         );
     }
 }
+
+#[test]
+fn a_row_whose_squares_overflow_is_told_and_is_not_zero() {
+    for (n, columns) in [(2_usize, 4_usize), (7, 22), (13, 40), (30, 90)] {
+        for row in [0, n / 2, n - 1] {
+            for stride in [columns + 1, columns.next_multiple_of(8)] {
+                let mut a: Vec<f64> = (0..n * stride).map(|i| Real::sin(1.0 + 0.7 * i as f64)).collect();
+                a[row * stride + row + 1] = 1e160;
+                assert_eq!(
+                    tria(&mut a, n, columns, stride).failed(),
+                    Some(row),
+                    "{n} × {columns} in {stride}"
+                );
+            }
+        }
+    }
+    // more rows than columns
+    let mut tall = [f64::NAN; 16];
+    let _ = tria(&mut tall, 4, 2, 4);
+    assert!(tall[0].is_nan());
+}

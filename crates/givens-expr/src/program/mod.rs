@@ -21,7 +21,7 @@ enum Code {
     Binary(Binary),
     Power(i32),
     Select,
-    /// a b + c, a b − c or c − a b: fused where the machine does that in one instruction.
+    /// a b + c, a b − c or c − a b, rounded twice: x x − y y of equal x and y is zero, as it is written.
     Product(Sum),
     /// Sine and cosine of one angle: two results.
     SinCos,

@@ -143,9 +143,9 @@ fn run<T: Real, const B: usize>(code: &[Instruction], rows: &mut [[T; B]]) {
         match instruction.code {
             Code::Unary(op) => unary(op, instruction, rows),
             Code::Binary(op) => binary(op, instruction, rows),
-            Code::Product(Sum::Plus) => at_each!(rows, instruction, |a, b, c| a.mul_add(b, c)),
-            Code::Product(Sum::Minus) => at_each!(rows, instruction, |a, b, c| a.mul_add(b, -c)),
-            Code::Product(Sum::From) => at_each!(rows, instruction, |a, b, c| (-a).mul_add(b, c)),
+            Code::Product(Sum::Plus) => at_each!(rows, instruction, |a, b, c| a * b + c),
+            Code::Product(Sum::Minus) => at_each!(rows, instruction, |a, b, c| a * b - c),
+            Code::Product(Sum::From) => at_each!(rows, instruction, |a, b, c| c - a * b),
             Code::Power(e) => at_each!(rows, instruction, |a| a.powi(e)),
             Code::Select => at_each!(rows, instruction, |c, a, b| choose(c, a, b)),
             Code::SinCos => {

@@ -29,6 +29,15 @@ impl Explain<'_> {
             _ => {}
         }
         let set = |key, value| self.face.set(key, value);
+        let negative =
+            choice.is_none_or(|choice| matches!(choice.rule, RuleName::Unscented | RuleName::Cubature5));
+        let rotated =
+            choice.is_some_and(|choice| choice.form == FormName::SquareRoot && !choice.time_update.solves());
+        if matrix == Matrix::Predicted && rotated && !negative {
+            // a root by rotations fails for nothing else
+            return "a standard deviation is too large to be squared (1e154): does the model run away? Or use other units"
+                .to_owned();
+        }
         let mut ways = Vec::new();
         let by_equal_steps = |choice: &Choice| {
             choice.time_update.solves() && !choice.integrator.solver.adaptive() && matrix == Matrix::Predicted
@@ -46,7 +55,7 @@ impl Explain<'_> {
             }
             _ => {}
         }
-        if choice.is_none_or(|choice| matches!(choice.rule, RuleName::Unscented | RuleName::Cubature5)) {
+        if negative {
             ways.push(format!("a rule without negative weights ({})", self.face.method(self.plain())));
         }
         ways.push("more noise".to_owned());

@@ -1,4 +1,10 @@
 //! A program over packs says what it says over floats, to the bit, where it only adds, multiplies and divides.
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    reason = "a test may stop at what it did not expect"
+)]
 
 mod session;
 

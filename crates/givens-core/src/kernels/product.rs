@@ -1,7 +1,7 @@
 //! Products of small matrices, and the sums that all kernels are made of.
 //!
-//! The sums are loops over numbers, not folds or zips: what the compiler does not inline is compiled without the instructions of
-//! a pack.
+//! The sums are loops, not folds, and the short ones go over indices: what the compiler does not inline, a zip in a large
+//! function among it, is compiled without the instructions of a pack.
 
 use crate::scalar::{Mask, Real};
 

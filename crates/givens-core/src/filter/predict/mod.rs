@@ -46,8 +46,7 @@ pub struct Given<'a, T, M, R> {
     pub model: &'a M,
     /// Time at the start of the step, its length, controls and parameters.
     pub at: At<'a, T>,
-    /// Whether the scratch is as the step before left it, one over the same gap: of the same length, with the same controls
-    /// and parameters.
+    /// Whether the scratch is as the step before left it, one over the same gap: with the same controls and parameters.
     pub again: bool,
 }
 

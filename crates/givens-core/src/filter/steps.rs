@@ -114,6 +114,7 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
                 .map_err(|fault| StepError { fault, time: t, step })?;
         }
         let at = At { t: start, dt: length, u, p };
+        // the way back is put together in the same scratch
         let given = Given { rule: &rule, table, model, at, again: chained && !smoothing };
         let back = smoothing.then_some(if chained { &mut later } else { &mut total });
         let done = time_update.step::<T, _, X::Form>(&given, &mut belief, back, &mut work, scratch);

@@ -16,8 +16,12 @@ impl<X: Method, M, T: Real, B: AsRef<[T]>> Filter<'_, X, M, T, B> {
     #[inline(always)]
     fn array(&self, skip: usize, len: usize) -> &[T] {
         let Layout { shape, sizes, .. } = self.layout;
-        let before =
-            self.layout.moved_len() + shape.table + sizes.controls + sizes.parameters + 3 * sizes.states;
+        let before = self.layout.moved_len()
+            + self.layout.kept
+            + shape.table
+            + sizes.controls
+            + sizes.parameters
+            + 3 * sizes.states;
         let at = before + skip;
         &self.memory.as_ref()[at..at + len]
     }

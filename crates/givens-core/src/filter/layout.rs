@@ -15,6 +15,8 @@ pub(crate) struct Layout {
     pub smoothing: bool,
     /// Whether predictions leave a root of their own for the update.
     pub moved: bool,
+    /// Scalars that predictions leave for the next one.
+    pub kept: usize,
     /// All of the filter's scalars.
     pub len: usize,
 }
@@ -24,7 +26,7 @@ impl Layout {
     pub const fn new(sizes: Sizes, shape: Shape, smoothing: bool, predict: usize) -> Self {
         let Sizes { states: n, measures: d, measurement_noise: r, .. } = sizes;
         if !countable(sizes, shape) {
-            return Self { sizes, shape, smoothing, moved: false, len: usize::MAX };
+            return Self { sizes, shape, smoothing, moved: false, kept: 0, len: usize::MAX };
         }
         // mean, factor, covariance, the rounding in the factor, and what was known before an update; innovation (measured,
         // predicted, ν, factor, white, NIS, log-likelihood); gain and conditional root, twice where a gap of several steps
@@ -36,10 +38,15 @@ impl Layout {
         let predict = predict + if smoothing { accumulate_scratch(n) } else { 0 };
         let update = update_scratch(n, d, r, shape, sizes.model, smoothing);
         let work = larger(predict, update);
-        Self { sizes, shape, smoothing, moved: false, len: kept + work }
+        Self { sizes, shape, smoothing, moved: false, kept: 0, len: kept + work }
     }
 
     /// The same with room for the root that a prediction leaves for the update.
+    /// With so many scalars that predictions leave for the next one.
+    pub const fn keeping(self, kept: usize) -> Self {
+        Self { kept, len: self.len.saturating_add(kept), ..self }
+    }
+
     pub const fn with_moved_root(self) -> Self {
         let moved = Self { moved: true, ..self };
         Self { len: self.len.saturating_add(moved.moved_len()), ..moved }

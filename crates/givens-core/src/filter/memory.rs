@@ -26,8 +26,11 @@ pub(crate) fn put_columns<T: Copy>(to: &mut [T], stride: usize, at: usize, block
     if width == 0 {
         return;
     }
-    for (row, from) in to.chunks_exact_mut(stride).zip(block.chunks_exact(width)) {
-        row[at..at + width].copy_from_slice(from);
+    let (mut from, mut first) = (0, at);
+    while from + width <= block.len() {
+        to[first..][..width].copy_from_slice(&block[from..][..width]);
+        from += width;
+        first += stride;
     }
 }
 

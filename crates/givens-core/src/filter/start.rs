@@ -95,9 +95,10 @@ impl<'m, X: Over<M>, M, T: Real, B: AsMut<[T]>> Filter<'m, X, M, T, B> {
                 return Err(fail(Fault::Length { of, expected, found }));
             }
         }
-        let Parts { table, u, p, floor, mut learnt, scores, .. } =
+        let Parts { kept, table, u, p, floor, mut learnt, scores, .. } =
             parts::<T, X::Form>(&layout, memory.as_mut());
         method.rule().tabulate(n, table);
+        kept.fill(T::zero());
         u.fill(T::zero());
         p.iter_mut().zip(time_update.parameters(model)).for_each(|(to, &x)| *to = T::of(x));
         floor.fill(T::zero());

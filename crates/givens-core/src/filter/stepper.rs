@@ -56,6 +56,8 @@ impl<X: Clone, M, T, B: Clone> Clone for Filter<'_, X, M, T, B> {
 
 /// The arrays of a filter.
 pub(super) struct Parts<'a, T> {
+    /// What predictions leave for the next one.
+    pub kept: &'a mut [T],
     pub table: &'a mut [T],
     pub u: &'a mut [T],
     pub p: &'a mut [T],
@@ -86,6 +88,7 @@ pub(super) fn parts<'a, T, F: Form>(layout: &Layout, mut memory: &'a mut [T]) ->
     let root = if F::SQUARE_ROOT { square } else { 0 };
     let moved = take(m, layout.moved_len());
     Parts {
+        kept: take(m, layout.kept),
         table: take(m, layout.shape.table),
         u: take(m, layout.sizes.controls),
         p: take(m, layout.sizes.parameters),
@@ -116,6 +119,7 @@ pub(super) fn layout<X: Over<M>, M>(method: &X, sizes: Sizes, smoothing: bool) -
     let predict =
         if countable(sizes, shape) { method.time_update().scratch(sizes, shape, smoothing) } else { 0 };
     let layout = Layout::new(sizes, shape, smoothing, predict);
+    let layout = layout.keeping(method.time_update().kept(sizes));
     if method.time_update().moves_root() { layout.with_moved_root() } else { layout }
 }
 
@@ -145,8 +149,8 @@ impl<X: Over<M>, M, T: Real, B: AsMut<[T]>> Filter<'_, X, M, T, B> {
             return Err(Fault::Length { of, expected, found: n });
         }
         let sizes = Sizes { states: n, ..self.layout.sizes };
-        let moved = self.method.time_update().moves_root();
-        Ok(parts::<T, X::Form>(&Layout { sizes, shape, moved, ..self.layout }, self.memory.as_mut()))
+        let (moved, kept) = (self.method.time_update().moves_root(), self.method.time_update().kept(sizes));
+        Ok(parts::<T, X::Form>(&Layout { sizes, shape, moved, kept, ..self.layout }, self.memory.as_mut()))
     }
 
     /// Sets the controls, which hold until they are set again. A model that has some neither predicts nor is measured by

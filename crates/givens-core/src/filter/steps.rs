@@ -105,7 +105,7 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
         let (smoothing, step) = (self.layout.smoothing, self.step);
         let mut work = self.work;
         let parts = self.known_parts().map_err(|fault| StepError { fault, time: t, step })?;
-        let Parts { table, u, p, floor, before, mut belief, mut total, mut later, scratch, .. } = parts;
+        let Parts { kept, table, u, p, floor, before, mut belief, mut total, mut later, scratch, .. } = parts;
         let n = belief.mean.len();
         note(belief.mean, belief.factor, before);
         let mut blurred = T::Mask::splat(false);
@@ -115,9 +115,9 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
         }
         let at = At { t: start, dt: length, u, p };
         // the way back is put together in the same scratch
-        let given = Given { rule: &rule, table, model, at, again: chained && !smoothing };
+        let mut given = Given { rule: &rule, table, model, at, again: chained && !smoothing, kept };
         let back = smoothing.then_some(if chained { &mut later } else { &mut total });
-        let done = time_update.step::<T, _, X::Form>(&given, &mut belief, back, &mut work, scratch);
+        let done = time_update.step::<T, _, X::Form>(&mut given, &mut belief, back, &mut work, scratch);
         let chain = match done {
             Ok(sick) if smoothing && chained => {
                 let chain = accumulate(n, &mut total, &later, scratch);

@@ -4,6 +4,7 @@
 //! it could not serve as [`Health`].
 
 mod cholesky;
+mod cholesky_again;
 mod downdate;
 mod health;
 mod lu;
@@ -21,6 +22,7 @@ mod tria_panels;
 mod tria_wide;
 
 pub use cholesky::{cholesky, cholesky_scaled};
+pub use cholesky_again::{cholesky_again, kept_root};
 pub use downdate::downdate;
 pub use health::Health;
 pub use lu::{lu, lu_order, lu_solve, lu_solve_transposed};

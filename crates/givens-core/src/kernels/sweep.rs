@@ -1,7 +1,7 @@
 //! A sweep of Givens rotations: absorbs a linear map of a triangular factor into that factor.
 
 use super::sweep_in_lanes::sweep_in_lanes;
-use super::{Health, dot, outlined};
+use super::{Health, dot, outlined, sized};
 use crate::scalar::{Mask, Real};
 
 outlined! {
@@ -18,59 +18,78 @@ outlined! {
 
 #[inline(always)]
 fn swept<T: Real>(a: &mut [T], d: usize, n: usize, scratch: &mut [T]) -> Health<T> {
-    let size = d + n;
-    let rows = a.len() / size.max(1);
-    debug_assert!((rows - d).is_multiple_of(n.max(1)) && scratch.len() >= n);
+    debug_assert!(scratch.len() >= 2 * n && a.len() >= d * (d + n));
     let absorbed = sweep_in_lanes(a, d, n, scratch);
-    let norms = &mut scratch[..n];
     let mut health = Health::good();
-    let bound = T::of(size as f64 * T::EPSILON);
-    for q in absorbed..d {
-        let row = &a[q * size..(q + 1) * size];
-        let pivot = row[q];
-        let settled = dot(&row[..q], &row[..q]);
-        let mut sum = pivot * pivot;
-        for (norm, &z) in norms.iter_mut().zip(&row[d..]).rev() {
-            sum = z.mul_add(z, sum);
-            *norm = sum;
-        }
-        // what overflows is not nothing
-        let nothing = sum.le(bound * bound * (settled + sum)) & sum.finite();
-        if nothing.all() {
-            drop_row(a, d, n, q);
-            continue;
-        }
-        health.note(nothing | (!sum.finite() & sum.same(sum)), q);
-        let mut before = pivot;
-        for j in (0..n).rev() {
-            let after = norms[j].sqrt();
-            let z = a[q * size + d + j];
-            let still = z.same(T::zero());
-            let (c, s) = (before / after, z / after);
-            let (c, s) = (T::select(still, T::one(), c), T::select(still, T::zero(), s));
-            before = T::select(still, before, after);
-            // the rows of D still to come, and the rows of each S that column j reaches
-            for i in q + 1..d {
-                turn(&mut a[i * size..(i + 1) * size], q, d + j, c, s);
-            }
-            for top in (d..rows).step_by(n) {
-                for i in top + j..top + n {
-                    turn(&mut a[i * size..(i + 1) * size], q, d + j, c, s);
-                }
-            }
-            a[q * size + d + j] = T::zero();
-        }
-        a[q * size + q] = before;
-    }
+    sized!(n => for q in absorbed..d {
+        absorb(a, d, n, q, scratch, &mut health);
+    });
     health
 }
 
-/// Turns columns `q` and `column` of a row by the angle of cosine c and sine s.
+/// Rotates row q of D into its pivot.
 #[inline(always)]
-fn turn<T: Real>(row: &mut [T], q: usize, column: usize, c: T, s: T) {
-    let (x, y) = (row[column], row[q]);
-    row[column] = c * x - s * y;
-    row[q] = s.mul_add(x, c * y);
+fn absorb<T: Real>(a: &mut [T], d: usize, n: usize, q: usize, scratch: &mut [T], health: &mut Health<T>) {
+    let size = d + n;
+    let (c, s) = scratch.split_at_mut(n);
+    let (c, s) = (&mut c[..n], &mut s[..n]);
+    let (head, below) = a.split_at_mut((q + 1) * size);
+    let row = &mut head[q * size..];
+    let (pivot, settled) = (row[q], dot(&row[..q], &row[..q]));
+    let (row, z) = row.split_at_mut(d);
+    let z = &mut z[..n];
+    let mut sum = pivot * pivot;
+    for j in (0..n).rev() {
+        sum = z[j].mul_add(z[j], sum);
+        c[j] = sum;
+    }
+    // what overflows is not nothing
+    let bound = T::of(size as f64 * T::EPSILON);
+    let nothing = sum.le(bound * bound * (settled + sum)) & sum.finite();
+    if nothing.all() {
+        drop_row(a, d, n, q);
+        return;
+    }
+    health.note(nothing | (!sum.finite() & sum.same(sum)), q);
+    // the norms of what a column and those after it hold, then their ratios: no root and no quotient waits for another
+    let mut before = pivot;
+    for j in (0..n).rev() {
+        before = T::select(z[j].same(T::zero()), before, c[j].sqrt());
+        c[j] = before;
+    }
+    for j in 0..n {
+        let (still, norm) = (z[j].same(T::zero()), c[j]);
+        let before = if j + 1 < n { c[j + 1] } else { pivot };
+        c[j] = T::select(still, T::one(), before / norm);
+        s[j] = T::select(still, T::zero(), z[j] / norm);
+        z[j] = T::zero();
+    }
+    row[q] = before;
+    // the rows of D still to come, and of the rows of each S the triangle
+    let mut top = 0;
+    while top < (d - q - 1) * size {
+        turn(&mut below[top..][..size], q, d, n, c, s);
+        top += size;
+    }
+    while top < below.len() {
+        for i in 0..n {
+            turn(&mut below[top + i * size..][..size], q, d, i + 1, c, s);
+        }
+        top += n.max(1) * size;
+    }
+}
+
+/// Turns column q of a row into its columns `first`… by the angles of cosines c and sines s, from the last of `reach` on.
+#[inline(always)]
+fn turn<T: Real>(row: &mut [T], q: usize, first: usize, reach: usize, c: &[T], s: &[T]) {
+    let mut y = row[q];
+    let x = &mut row[first..][..reach];
+    for j in (0..reach).rev() {
+        let own = x[j];
+        x[j] = c[j] * own - s[j] * y;
+        y = s[j].mul_add(own, c[j] * y);
+    }
+    row[q] = y;
 }
 
 /// Row q has no pivot: zeroes what is left of it, and turns its column of L into those of the rows below.

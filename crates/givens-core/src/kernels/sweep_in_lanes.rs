@@ -11,7 +11,7 @@ const FEWEST: usize = 12;
 #[must_use]
 pub const fn sweep_scratch(d: usize, n: usize) -> usize {
     if n < FEWEST || LANES == 1 {
-        return n;
+        return n.saturating_mul(2);
     }
     let lanes = d.saturating_add(n).saturating_mul(PACKS * LANES);
     rotations_scratch(d, n).saturating_add(lanes)

@@ -1,5 +1,6 @@
 //! Symmetric points: every point m + S ξ comes with m − S ξ, and a centre if the rule or an angle needs one.
 
+use crate::kernels::outlined;
 use crate::model::{At, Map, evaluate_side_by_side, filled, misaligned};
 use crate::scalar::Real;
 
@@ -19,6 +20,19 @@ impl<T: Real> Images<'_, T> {
         let (plus, rest) = row.split_at(self.pairs);
         let (minus, centre) = rest.split_at(self.pairs);
         (plus, minus, centre.first().copied().filter(|_| self.centred))
+    }
+}
+
+outlined! {
+    /// Moves every angle of a row by whole periods to the reference.
+    fn wrap_around(row: &mut [T], reference: T, period: f64) -> () = wrapped_around
+}
+
+#[inline(always)]
+fn wrapped_around<T: Real>(row: &mut [T], reference: T, period: f64) {
+    let period = T::of(period);
+    for angle in row {
+        *angle = reference + (*angle - reference).wrap(period);
     }
 }
 
@@ -46,11 +60,8 @@ pub(super) fn evaluate<'a, T: Real, G: Map>(
     evaluate_side_by_side(g, at, points, x, y, rest);
     for i in 0..d {
         if let Some(period) = g.angle(i) {
-            let row = &mut y[i * points..(i + 1) * points];
-            let reference = row[2 * pairs];
-            for image in row {
-                *image = reference + (*image - reference).wrap(T::of(period));
-            }
+            let row = &mut y[i * points..][..points];
+            wrap_around(row, row[2 * pairs], period);
         }
     }
     Images { y, pairs, points, centred }

@@ -1,7 +1,7 @@
 //! Cholesky factorisation of what is semidefinite, and the pivot at which it fails of what is not.
 
 use super::matrix::{Matrix, any_matrix, apart, deficient, factor, is_factor};
-use givens_core::kernels::{cholesky, cholesky_scaled};
+use givens_core::kernels::{cholesky, cholesky_again, cholesky_scaled, kept_root};
 use givens_core::scalar::Real;
 use proptest::prelude::*;
 
@@ -105,5 +105,28 @@ fn a_variance_that_is_infinite_is_told_and_is_not_zero() {
     for huge in [f64::INFINITY, f64::NAN] {
         let mut p = [1.0, 0.0, 0.0, huge];
         assert_eq!(cholesky(&mut p, 2).failed(), Some(1));
+    }
+}
+
+#[test]
+fn a_root_that_is_kept_is_that_of_the_covariance_at_hand() {
+    let mut kept = [0.0; kept_root(2)];
+    // the same again, a zero one, one that is none, and again; what stands above the diagonal is not read
+    for (p, failed) in [
+        ([4.0, 9.0, 2.0, 3.0], None),
+        ([4.0, 7.0, 2.0, 3.0], None),
+        ([4.0, 7.0, 2.0, 5.0], None),
+        ([0.0, 0.0, 0.0, 0.0], None),
+        ([1.0, 0.0, 2.0, 1.0], Some(1)),
+        ([1.0, 0.0, 2.0, 1.0], Some(1)),
+        ([f64::NAN, 0.0, 0.0, 1.0], Some(0)),
+        ([4.0, 7.0, 2.0, 3.0], None),
+    ] {
+        let (mut again, mut anew) = (p, p);
+        assert_eq!(cholesky_again(&mut again, 2, &mut kept).failed(), failed, "{p:?}");
+        assert_eq!(cholesky(&mut anew, 2).failed(), failed, "{p:?}");
+        if failed.is_none() {
+            assert_eq!(again, anew, "{p:?}");
+        }
     }
 }

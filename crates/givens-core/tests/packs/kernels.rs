@@ -1,7 +1,7 @@
 //! The kernels on packs, lane by lane as on floats.
 
 use super::every_set::{Check, every_pack};
-use givens_core::kernels::{cholesky, solve_lower, sweep, tria};
+use givens_core::kernels::{cholesky, solve_lower, sweep, sweep_scratch, tria};
 use givens_core::scalar::{InstructionSet, Mask, Pack, Real};
 
 /// Reproducible numbers in (−1, 1), others for every lane and element. (Squares: multiples alone would make rows that
@@ -57,8 +57,8 @@ impl Check for Kernels {
         alike::<P>(
             size * size,
             block,
-            |a| well(sweep(a, d, n, &mut vec![P::zero(); n]).sick),
-            |a| !sweep(a, d, n, &mut vec![P::Element::zero(); n]).sick,
+            |a| well(sweep(a, d, n, &mut vec![P::zero(); sweep_scratch(d, n)]).sick),
+            |a| !sweep(a, d, n, &mut vec![P::Element::zero(); sweep_scratch(d, n)]).sick,
         );
         let covariance = move |l: usize, i: usize| -> f64 {
             let (row, column) = (i / n, i % n);

@@ -69,7 +69,7 @@ impl<M: Sde> TimeUpdate<M> for EulerMaruyama {
     #[inline(always)]
     fn step<T: Real, R: Rule, F: Form>(
         &self,
-        given: &Given<T, M, R>,
+        given: &mut Given<T, M, R>,
         belief: &mut Belief<T>,
         back: Option<&mut Backward<T>>,
         _: &mut Work,

@@ -115,13 +115,13 @@ impl<M: Sde> TimeUpdate<M> for ItoTaylor {
     #[inline(always)]
     fn step<T: Real, R: Rule, F: Form>(
         &self,
-        given: &Given<T, M, R>,
+        given: &mut Given<T, M, R>,
         belief: &mut Belief<T>,
         back: Option<&mut Backward<T>>,
         _: &mut Work,
         mut scratch: &mut [T],
     ) -> Result<T::Mask, Stopped> {
-        let Given { rule, table, model, ref at, again } = *given;
+        let Given { rule, table, model, ref at, again, .. } = *given;
         let (n, q) = (belief.mean.len(), model.noises());
         let full = self.variant == Variant::Full;
         let g = take(&mut scratch, n * q);

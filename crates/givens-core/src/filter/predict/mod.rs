@@ -48,6 +48,8 @@ pub struct Given<'a, T, M, R> {
     pub at: At<'a, T>,
     /// Whether the scratch is as the step before left it, one over the same gap: with the same controls and parameters.
     pub again: bool,
+    /// [`TimeUpdate::kept`] scalars, as the step before has left them, or zero.
+    pub kept: &'a mut [T],
 }
 
 /// A gap in time, divided.
@@ -103,6 +105,12 @@ pub trait TimeUpdate<M>: Copy {
     /// Scalars of scratch that a step needs.
     fn scratch(&self, sizes: Sizes, shape: Shape, smoothing: bool) -> usize;
 
+    /// Scalars that stay as a step has left them, for what it need not work out again.
+    fn kept(&self, sizes: Sizes) -> usize {
+        let _ = sizes;
+        0
+    }
+
     /// Divides the gap between two times into steps.
     ///
     /// # Errors
@@ -125,7 +133,7 @@ pub trait TimeUpdate<M>: Copy {
     /// Why the step could not be done.
     fn step<T: Real, R: Rule, F: Form>(
         &self,
-        given: &Given<T, M, R>,
+        given: &mut Given<T, M, R>,
         belief: &mut Belief<T>,
         back: Option<&mut Backward<T>>,
         work: &mut Work,

@@ -9,8 +9,8 @@ use crate::filter::lanes::lanes;
 use crate::filter::layout::Layout;
 use crate::filter::memory::{larger, put_columns, take, whole_packs};
 use crate::filter::sizes::{Sizes, countable};
-use crate::kernels::wild_row;
-use crate::model::{Moving, Transition, scratch_for};
+use crate::kernels::{cholesky_again, kept_root, wild_row};
+use crate::model::{Moving, Noise, Transition, scratch_for};
 use crate::ode::Work;
 use crate::rule::{Rule, Shape, Spread, spread_scratch};
 use crate::scalar::{Mask, Real};
@@ -34,7 +34,7 @@ impl OneTransition {
     /// The memory of a filter of this time update.
     pub(crate) const fn layout(sizes: Sizes, shape: Shape, smoothing: bool) -> Layout {
         let predict = if countable(sizes, shape) { Self::scratch(sizes, shape, smoothing) } else { 0 };
-        Layout::new(sizes, shape, smoothing, predict)
+        Layout::new(sizes, shape, smoothing, predict).keeping(kept_root(sizes.states))
     }
 }
 
@@ -65,6 +65,10 @@ impl<M: Transition> TimeUpdate<M> for OneTransition {
             parameters: model.parameters().len(),
             model: scratch_for(|points| model.transition_scratch(points), shape.points, beside),
         }
+    }
+
+    fn kept(&self, sizes: Sizes) -> usize {
+        kept_root(sizes.states)
     }
 
     fn lockstep(&self, _: bool) -> bool {
@@ -98,13 +102,13 @@ impl<M: Transition> TimeUpdate<M> for OneTransition {
     #[inline(always)]
     fn step<T: Real, R: Rule, F: Form>(
         &self,
-        given: &Given<T, M, R>,
+        given: &mut Given<T, M, R>,
         belief: &mut Belief<T>,
         back: Option<&mut Backward<T>>,
         _: &mut Work,
         mut scratch: &mut [T],
     ) -> Result<T::Mask, Stopped> {
-        let Given { rule, table, model, ref at, .. } = *given;
+        let Given { rule, table, model, ref at, ref mut kept, .. } = *given;
         let n = belief.mean.len();
         let shape = rule.shape(n);
         let q = model.noise().columns(n);
@@ -123,7 +127,14 @@ impl<M: Transition> TimeUpdate<M> for OneTransition {
             return Err(Fault::NotFinite { quantity, component }.into());
         }
         let Spread { mean, dev, minus, .. } = spread;
-        let sick = lanes(model.noise_root(at, root), Matrix::ProcessNoise)?;
+        let health = match model.noise() {
+            Noise::Root(_) => model.noise_root(at, root),
+            Noise::Covariance => {
+                model.process_noise(at, root);
+                cholesky_again(root, n, kept)
+            }
+        };
+        let sick = lanes(health, Matrix::ProcessNoise)?;
         if let Some(component) = wild_row(root, q) {
             return Err(Fault::NotFinite { quantity: Quantity::ProcessNoise, component }.into());
         }

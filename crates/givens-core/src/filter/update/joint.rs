@@ -37,8 +37,8 @@ pub(super) fn joint<T: Real>(
     let (rest, size) = (stride - n, d + n);
     let wide = whole_packs(larger(rest, d));
     let noise = take(&mut scratch, d * wide);
-    for (to, from) in noise.chunks_exact_mut(wide).zip(sensed.dev.chunks_exact(stride)) {
-        to[..rest].copy_from_slice(&from[n..]);
+    for i in 0..d {
+        noise[i * wide..][..rest].copy_from_slice(&sensed.dev[i * stride + n..][..rest]);
     }
     let sick = if plain(noise, wide, rest, sensed) {
         for (i, row) in noise.chunks_exact_mut(wide).enumerate() {

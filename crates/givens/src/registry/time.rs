@@ -73,7 +73,7 @@ impl<M: Sde> TimeUpdate<M> for AnyTime {
 
     fn step<T: Real, R: Rule, F: Form>(
         &self,
-        given: &Given<T, M, R>,
+        given: &mut Given<T, M, R>,
         belief: &mut Belief<T>,
         back: Option<&mut Backward<T>>,
         work: &mut Work,

@@ -44,9 +44,10 @@ pub(super) fn settle<T: Real, F: Form>(
     let scale = take(&mut scratch, n);
     let mut sick = T::Mask::splat(false);
     if F::SQUARE_ROOT {
-        let next = take(&mut scratch, n * n);
         if let Some(back) = back {
+            let next = take(&mut scratch, n * n);
             sick = sick | rotation(dev, [columns, stride], minus, lost, next, back, scratch)?;
+            belief.factor.copy_from_slice(next);
         } else {
             sick = sick | lanes(tria(dev, n, columns, stride), Matrix::Predicted)?;
             for column in 0..lost {
@@ -55,9 +56,8 @@ pub(super) fn settle<T: Real, F: Form>(
                 }
                 sick = sick | lanes(downdate(dev, n, stride, scale), Matrix::Predicted)?;
             }
-            copy_lower(next, n, dev, stride);
+            copy_lower(belief.factor, n, dev, stride);
         }
-        belief.factor.copy_from_slice(next);
     } else {
         let cov = take(&mut scratch, n * n);
         let next = take(&mut scratch, n * n);

@@ -69,6 +69,8 @@ pub enum Quantity {
     Innovation,
     /// A state estimate.
     Estimate,
+    /// The variance of a state in the initial belief.
+    Variance,
     /// A control given to the filter.
     Control,
     /// A parameter given to the filter.
@@ -94,6 +96,7 @@ impl Quantity {
             Quantity::Measurement => "measurement",
             Quantity::Innovation => "squared innovation",
             Quantity::Estimate => "state estimate",
+            Quantity::Variance => "initial variance",
             Quantity::Control => "control",
             Quantity::Parameter => "parameter",
             Quantity::Time => "time of the belief",
@@ -134,6 +137,15 @@ pub enum Fault {
         quantity: Quantity,
         /// Which component, from zero.
         component: usize,
+    },
+    /// A number given to the filter that is too large, or too small, for the numbers that it computes with.
+    Unrepresentable {
+        /// What.
+        quantity: Quantity,
+        /// Which component, from zero.
+        component: usize,
+        /// The number.
+        value: f64,
     },
     /// The points of the rule lose more than an eighth of their steps in a component of the state, beside its mean: its
     /// standard deviation is below the spacing of numbers there.
@@ -218,6 +230,13 @@ impl fmt::Display for Fault {
                     _ => Ok(()),
                 }
             }
+            Fault::Unrepresentable { quantity, component, value } => write!(
+                f,
+                "component {} of the {}, {}, is beyond what f32 can keep (1.2e-38 to 3.4e38); choose other units, or f64",
+                component + 1,
+                quantity.name(),
+                Shown(value)
+            ),
             Fault::Indistinct { component } => write!(
                 f,
                 "the points of component {} of the state cannot be told from its mean: its standard deviation is below \

@@ -6,6 +6,7 @@ mod constants;
 mod continuous;
 mod distinct;
 mod error;
+mod fits;
 mod form;
 mod gaussian;
 mod inside;

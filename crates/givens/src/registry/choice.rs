@@ -2,7 +2,7 @@
 
 use super::entry::{ENTRIES, Entry, find};
 use super::setting::SettingError;
-use super::words::{FormName, GAUGES, Kind, ROOTS, RuleName, TimeName, VARIANTS, VELOCITIES, word_of};
+use super::words::{FormName, GAUGES, Kind, Precision, ROOTS, RuleName, TimeName, VARIANTS, VELOCITIES, word_of};
 use crate::filter::Block;
 use crate::filter::predict::{Gauge, Root, Variant, Velocity};
 use crate::ode::{Integrator, Steps};
@@ -32,6 +32,8 @@ pub struct Choice {
     pub velocity: Velocity,
     /// The solver, its steps and its tolerance; the steps are those of the other time updates too.
     pub integrator: Integrator,
+    /// What it computes with.
+    pub precision: Precision,
     /// Options of the unscented rule.
     pub unscented: Unscented,
     /// Options of the Gauss–Hermite rule.

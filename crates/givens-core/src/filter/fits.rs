@@ -37,7 +37,10 @@ mod tests {
         assert_eq!(fits::<f32>(&[1.0, -1e39], Quantity::Control), beyond(Quantity::Control, 1, -1e39));
         assert_eq!(fits::<f32>(&[f64::NAN, 3e38, 1e-60], Quantity::Control), Ok(()));
         assert_eq!(variances_fit::<f32>(&[1e-30], &[]), beyond(Quantity::Variance, 0, 1e-30 * 1e-30));
-        assert_eq!(variances_fit::<f32>(&[0.0, 0.0, 0.0, 1e20], &[]), beyond(Quantity::Variance, 1, 1e20 * 1e20));
+        assert_eq!(
+            variances_fit::<f32>(&[0.0, 0.0, 0.0, 1e20], &[]),
+            beyond(Quantity::Variance, 1, 1e20 * 1e20)
+        );
         assert_eq!(variances_fit::<f32>(&[1.0], &[1e-40]), beyond(Quantity::Variance, 0, 1e-40));
         assert_eq!(variances_fit::<f32>(&[0.0, 0.0, 1.0, 1e-18], &[]), Ok(()));
     }

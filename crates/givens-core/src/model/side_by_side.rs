@@ -104,6 +104,12 @@ impl<G: Map> Job<f64> for SideBySide<'_, G> {
         }
         let (u, p) = constants.split_at(at.u.len());
         let at = At { t: P::splat(at.t), dt: P::splat(at.dt), u, p };
-        g.points(&at, points / P::WIDTH, numbers_mut(words_mut(x)), numbers_mut(words_mut(y)), numbers_mut(words_mut(rest)));
+        g.points(
+            &at,
+            points / P::WIDTH,
+            numbers_mut(words_mut(x)),
+            numbers_mut(words_mut(y)),
+            numbers_mut(words_mut(rest)),
+        );
     }
 }

@@ -21,8 +21,9 @@ impl Grain {
     pub fn of<T: Real>() -> Option<Self> {
         match made_of::<T, f64, pack::Narrow>() {
             Some((set, depth)) => Some(Self { single: false, set, depth }),
-            None => made_of::<T, f32, pack::NarrowSingle>()
-                .map(|(set, depth)| Self { single: true, set, depth }),
+            None => {
+                made_of::<T, f32, pack::NarrowSingle>().map(|(set, depth)| Self { single: true, set, depth })
+            }
         }
     }
 
@@ -146,7 +147,8 @@ mod tests {
     fn what_is_not_aligned_is_no_pack() {
         let memory = [0.0_f64; 16];
         let words = words(&memory);
-        let aligned = |whole: usize| (0..whole).filter(|&k| !numbers::<pack::Narrow>(&words[k..]).is_empty()).count();
+        let aligned =
+            |whole: usize| (0..whole).filter(|&k| !numbers::<pack::Narrow>(&words[k..]).is_empty()).count();
         assert_eq!(aligned(16), 16 * size_of::<Word>() / align_of::<pack::Narrow>());
         let aligned = (0..16).filter(|&k| !numbers::<pack::NarrowSingle>(&words[k..]).is_empty()).count();
         assert_eq!(aligned, 16 * size_of::<Word>() / align_of::<pack::NarrowSingle>());

@@ -131,8 +131,7 @@ impl Batch<'_> {
         H: Observation + Sync,
     {
         let by = method.method();
-        let width =
-            if packable(&by, self.goal) { lockstep::width::<X::Number>(self.vectors) } else { 1 };
+        let width = if packable(&by, self.goal) { lockstep::width::<X::Number>(self.vectors) } else { 1 };
         let pack = |of: &[Track<M, H>]| {
             let job = Lockstep { method: by, tracks: of, goal: self.goal, watch: self.watch() };
             self.vectors.run_in_registers::<X::Number, _>(job).unwrap_or_default()

@@ -2,7 +2,9 @@
 
 use super::entry::{ENTRIES, Entry, find};
 use super::setting::SettingError;
-use super::words::{FormName, GAUGES, Kind, Precision, ROOTS, RuleName, TimeName, VARIANTS, VELOCITIES, word_of};
+use super::words::{
+    FormName, GAUGES, Kind, Precision, ROOTS, RuleName, TimeName, VARIANTS, VELOCITIES, word_of,
+};
 use crate::filter::Block;
 use crate::filter::predict::{Gauge, Root, Variant, Velocity};
 use crate::ode::{Integrator, Steps};

@@ -19,7 +19,10 @@ pub(super) trait Job<M> {
 }
 
 /// A method as types, in either precision.
-pub(super) trait Computing<M>: Computes<M, Method: Send + Sync + 'static> + Send + Sync + 'static {}
+pub(super) trait Computing<M>:
+    Computes<M, Method: Send + Sync + 'static> + Send + Sync + 'static
+{
+}
 
 impl<M, X: Computes<M, Method: Send + Sync + 'static> + Send + Sync + 'static> Computing<M> for X {}
 

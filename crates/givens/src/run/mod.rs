@@ -135,9 +135,11 @@ pub(crate) fn run_until<X: Computes<M>, M, H: Observation>(
     let mut outcome = Outcome::new(prior.mean().len(), sensors.measures(), goal);
     let wanted = if matches!(goal, Goal::Filter | Goal::Interval) { at } else { &[] };
     let out = &outcome.estimates;
-    let between = Between::<X::Number>::new(wanted, Estimates::new(out.states(), out.measures(), out.is_smoothed()));
+    let between =
+        Between::<X::Number>::new(wanted, Estimates::new(out.states(), out.measures(), out.is_smoothed()));
     let count = if goal == Goal::Filter { 0 } else { rows.len() };
-    match Recorder::start(method.method(), model, sensors, t0, prior, parameters, goal, count, between, watch) {
+    match Recorder::start(method.method(), model, sensors, t0, prior, parameters, goal, count, between, watch)
+    {
         Ok(mut recorder) => {
             recorder.forward(rows, &mut outcome);
             outcome.at = recorder.finish(&mut outcome);

@@ -43,9 +43,14 @@ pub(crate) fn start_own<'m, X: Over<M>, M, H: Observation, T: Real>(
             let prior = Prior { time, mean: prior.mean(), factor: prior.factor(), cov: prior.cov() };
             Filter::start_in(method, model, sizes, smoothing, prior, memory)
         }
-        Start::Snapshot(snapshot) => {
-            Filter::resume_in(method, model, sizes, smoothing, of_kind::<f64, T>(snapshot.carried()).carried(), memory)
-        }
+        Start::Snapshot(snapshot) => Filter::resume_in(
+            method,
+            model,
+            sizes,
+            smoothing,
+            of_kind::<f64, T>(snapshot.carried()).carried(),
+            memory,
+        ),
     }
 }
 

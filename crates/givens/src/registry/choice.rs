@@ -53,6 +53,7 @@ impl Choice {
             ("rule", preset.rule.word(), self.rule.word()),
             ("form", preset.form.word(), self.form.word()),
             ("time update", preset.time_update.word(), self.time_update.word()),
+            ("precision", Precision::F64.word(), self.precision.word()),
         ];
         let changed = parts.iter().filter(|(_, own, set)| own != set);
         let changed = changed.map(|(part, _, set)| format!("{part} {set}"));

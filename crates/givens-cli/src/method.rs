@@ -4,7 +4,8 @@ use crate::args::MethodArgs;
 use crate::message::{Stop, say};
 use givens::filter::Fault;
 use givens::registry::{
-    Choice, FormName, Kind, Precision, RuleName, Setting, SettingError, TimeName, Value, default_method, find, resolve,
+    Choice, FormName, Kind, Precision, RuleName, Setting, SettingError, TimeName, Value, default_method,
+    find, resolve,
 };
 use givens::scalar::Shown;
 use givens_expr::suggest;

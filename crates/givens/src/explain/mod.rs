@@ -83,12 +83,16 @@ impl Explain<'_> {
     pub fn told(&self, choice: Option<&Choice>, fault: &Fault) -> Told {
         let component = self.component(fault).map(str::to_owned);
         let (what, remedy) = self.words(choice, fault);
-        let remedy = if rounded(choice, fault) {
-            let double = self.face.set("precision", "f64");
-            Some(remedy.map_or_else(|| double.clone(), |remedy| format!("{remedy}; or compute in f64 ({double})")))
-        } else {
-            remedy
-        };
+        let remedy =
+            if rounded(choice, fault) {
+                let double = self.face.set("precision", "f64");
+                Some(remedy.map_or_else(
+                    || double.clone(),
+                    |remedy| format!("{remedy}; or compute in f64 ({double})"),
+                ))
+            } else {
+                remedy
+            };
         Told { what, remedy, component }
     }
 
@@ -99,9 +103,10 @@ impl Explain<'_> {
             Fault::SingularInnovation { measure } => (self.measures, measure),
             Fault::NotFinite { quantity, component } | Fault::Unrepresentable { quantity, component, .. } => {
                 match not_finite::of_what(quantity)? {
-                not_finite::Of::State => (self.states, component),
-                not_finite::Of::Measure => (self.measures, component),
-            }}
+                    not_finite::Of::State => (self.states, component),
+                    not_finite::Of::Measure => (self.measures, component),
+                }
+            }
             Fault::NotPositive { pivot, .. } | Fault::SingularFactor { pivot } => (self.states, pivot),
             Fault::Indistinct { component } | Fault::Unresolved { component } => (self.states, component),
             _ => return None,

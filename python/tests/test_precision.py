@@ -75,7 +75,7 @@ def test_functions_that_are_called_serve_it():
 
 def test_what_f32_cannot_keep_is_refused():
     far = gv.Gaussian([3e39, 0.0], std=[0.3, 0.3])
-    with pytest.raises(gv.FilterError, match=r"`angle`, 3e39, is beyond what f32 can keep") as caught:
+    with pytest.raises(gv.StepError, match=r"`angle`, 3e39, is beyond what f32 can keep") as caught:
         gv.filter(MODEL, SENSOR, T, Z[0], prior=far, precision="f32")
     assert 'precision="f64"' in str(caught.value)
     with pytest.raises(gv.MethodError, match="rtol = 1e-9: must be at least 1e-6 in f32"):

@@ -1,6 +1,7 @@
 //! Whether the numbers that a filter is given can be kept in numbers of its own kind.
 
-use super::error::{Fault, Quantity};
+use super::error::Fault;
+use super::quantity::Quantity;
 use crate::kernels::dot;
 use crate::scalar::{Mask, Real};
 

@@ -1,10 +1,11 @@
 //! How a filter begins: from a belief, in memory that is laid out once.
 
-use super::error::{Fault, Quantity, StepError};
+use super::error::{Fault, StepError};
 use super::fits::{fits, variances_fit};
 use super::form::Form;
 use super::methods::Over;
 use super::predict::TimeUpdate;
+use super::quantity::Quantity;
 use super::sizes::Sizes;
 use super::stepper::{Filter, Parts, layout, parts};
 use crate::model::At;

@@ -1,13 +1,14 @@
 //! A filter in motion: its memory, its start, and what it knows.
 
 use super::backward::Backward;
-use super::error::{Fault, Quantity, StepError};
+use super::error::{Fault, StepError};
 use super::fits::fits;
 use super::form::{Belief, Form};
 use super::layout::Layout;
 use super::memory::take;
 use super::methods::Over;
 use super::predict::TimeUpdate;
+use super::quantity::Quantity;
 use super::sizes::{Sizes, countable};
 use super::update::Learnt;
 use crate::ode::Work;

@@ -3,11 +3,12 @@
 use super::Matrix;
 use super::backward::accumulate;
 use super::distinct::{distinct, judge, lower, note};
-use super::error::{Fault, Quantity, StepError};
+use super::error::{Fault, StepError};
 use super::fits::fits;
 use super::lanes::lanes;
 use super::methods::Over;
 use super::predict::{Given, Plan, Stopped, TimeUpdate};
+use super::quantity::Quantity;
 use super::stepper::{Filter, Parts, layout};
 use super::update::{InnovationMut, Measurement, Present, update};
 use crate::model::{At, Observation};

@@ -78,7 +78,8 @@ def filter(
     threads : int, optional
         Threads for a batch; by default as many as there are cores. Estimates do not depend on it.
     **options
-        Parts and options of the method, as `methods` lists them: ``substeps=8``, ``rtol=1e-8``, ``form="covariance"``.
+        Parts and options of the method, as `methods` lists them: ``substeps=8``, ``rtol=1e-8``, ``form="covariance"``,
+        ``precision="f32"``.
 
     Returns
     -------

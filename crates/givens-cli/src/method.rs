@@ -4,7 +4,8 @@ use crate::args::MethodArgs;
 use crate::message::{Stop, say};
 use givens::filter::Fault;
 use givens::registry::{
-    Choice, FormName, Kind, RuleName, Setting, SettingError, TimeName, Value, default_method, find, resolve,
+    Choice, FormName, Kind, Precision, RuleName, Setting, SettingError, TimeName, Value, default_method,
+    find, resolve,
 };
 use givens::scalar::Shown;
 use givens_expr::suggest;
@@ -204,6 +205,9 @@ pub fn parts(choice: &Choice, states: usize) -> Vec<String> {
     let rule = options(choice, states);
     parts.extend(rule.iter().map(|(key, value)| format!("{key} {}", Shown(*value))));
     parts.push(format!("form {}", form(choice)));
+    if choice.precision != Precision::F64 {
+        parts.push(format!("precision {}", choice.precision.word()));
+    }
     if choice.time_update != TimeName::Transition {
         parts.push(format!("time update {}", choice.time_update.word()));
         parts.extend(

@@ -21,6 +21,7 @@ impl Failures {
             Fault::Unresolved { .. } => "steps too long for the smoother",
             Fault::SingularFactor { .. } => "singular factor",
             Fault::NotFinite { .. } => "not a number",
+            Fault::Unrepresentable { .. } => "beyond f32",
             Fault::Indistinct { .. } => "points that coincide",
             Fault::Solver { .. } => "the solver's steps",
             _ => "other",

@@ -102,6 +102,7 @@ impl Choice {
             let update = if choice.block == Block::Joint { "joint" } else { "separate" };
             parts.set_item("update", update)?;
         }
+        parts.set_item("precision", choice.precision.word())?;
         parts.set_item("time_update", choice.time_update.word())?;
         for (key, value) in choice.time_options() {
             match value.parse::<f64>() {

@@ -32,6 +32,7 @@ fn word(fault: &Fault) -> &'static str {
         Fault::NotPositive { .. } => "not-positive",
         Fault::SingularInnovation { .. } => "singular-innovation",
         Fault::NotFinite { .. } => "not-finite",
+        Fault::Unrepresentable { .. } => "unrepresentable",
         Fault::Indistinct { .. } => "indistinct",
         Fault::Backwards { .. } => "backwards",
         Fault::NotWholeSteps { .. } => "not-whole-steps",
@@ -58,7 +59,9 @@ fn fields<'py>(
         Fault::NotPositive { matrix, pivot } => (Some(matrix.name()), Some(pivot), None),
         Fault::SingularInnovation { measure } => (Some("innovation covariance"), Some(measure), None),
         Fault::SingularFactor { pivot } => (Some("predicted covariance"), Some(pivot), None),
-        Fault::NotFinite { quantity, .. } => (None, None, Some(quantity.name())),
+        Fault::NotFinite { quantity, .. } | Fault::Unrepresentable { quantity, .. } => {
+            (None, None, Some(quantity.name()))
+        }
         _ => (None, None, None),
     };
     fields.set_item("time", error.time)?;

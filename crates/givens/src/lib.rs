@@ -28,10 +28,12 @@ mod data;
 mod estimates;
 pub mod explain;
 pub mod metrics;
+mod precision;
 pub mod registry;
 mod run;
 pub mod simulate;
 
 pub use data::{Data, DataError, Row};
 pub use estimates::Estimates;
+pub use precision::{Computes, Single};
 pub use run::{Draws, Failure, Goal, Outcome, Samples, filter, run, run_at, sample, smooth};

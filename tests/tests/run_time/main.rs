@@ -5,4 +5,5 @@ mod by_hand;
 mod factors;
 mod packs;
 mod samples;
+mod single;
 mod snapshots;

@@ -91,9 +91,9 @@ fn models_that_are_none_and_filters_that_do_not_fit() {
             ),
             (
                 "no_such_option",
-                (M, "kappa = 0", "precision = \"f32\""),
+                (M, "kappa = 0", "digits = 7"),
                 FILTER,
-                &["model.toml:35:1: there is no option `precision`", "help: one of: "],
+                &["model.toml:35:1: there is no option `digits`", "help: one of: "],
             ),
             (
                 "range_in_file",

@@ -56,8 +56,8 @@ fn wrong_methods_and_options() {
             (
                 "precision",
                 NONE,
-                "filter model.toml data.csv -o out.csv --set precision=f32",
-                &["--set precision=f32: there is no option `precision`"],
+                "filter model.toml data.csv -o out.csv --set precision=f16",
+                &["--set precision=f16: no such choice", "did you mean `f64`?"],
             ),
             (
                 "no_value",

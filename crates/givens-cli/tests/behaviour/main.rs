@@ -8,6 +8,7 @@ mod continuous;
 mod failures;
 mod large;
 mod output;
+mod precision;
 mod reproduce;
 mod rows;
 mod simulate;

@@ -1,5 +1,6 @@
 //! What can go wrong in a step: data, not words.
 
+use super::quantity::Quantity;
 use crate::rule::RuleError;
 use crate::scalar::Shown;
 use core::fmt;
@@ -42,65 +43,6 @@ impl Matrix {
     }
 }
 
-/// A quantity that a model computes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Quantity {
-    /// The transition of a state.
-    Transition,
-    /// The value of a measure.
-    Observation,
-    /// The derivative of the transition with respect to the state, at the mean.
-    TransitionDerivative,
-    /// The derivative of a measure with respect to the state, at the mean.
-    ObservationDerivative,
-    /// The drift of a state.
-    Drift,
-    /// The derivative of the drift with respect to the state, at the mean.
-    DriftDerivative,
-    /// The diffusion of a state.
-    Diffusion,
-    /// The process noise.
-    ProcessNoise,
-    /// The measurement noise.
-    MeasurementNoise,
-    /// A measurement given to the filter.
-    Measurement,
-    /// The square of a measurement's innovation, in standard deviations.
-    Innovation,
-    /// A state estimate.
-    Estimate,
-    /// A control given to the filter.
-    Control,
-    /// A parameter given to the filter.
-    Parameter,
-    /// The time at which a belief is to hold.
-    Time,
-}
-
-impl Quantity {
-    /// Its name in a message.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Quantity::Transition => "transition",
-            Quantity::Observation => "predicted measure",
-            Quantity::TransitionDerivative => "derivative of the transition",
-            Quantity::ObservationDerivative => "derivative of the predicted measure",
-            Quantity::Drift => "drift",
-            Quantity::DriftDerivative => "derivative of the drift",
-            Quantity::Diffusion => "diffusion",
-            Quantity::ProcessNoise => "process noise",
-            Quantity::MeasurementNoise => "measurement noise",
-            Quantity::Measurement => "measurement",
-            Quantity::Innovation => "squared innovation",
-            Quantity::Estimate => "state estimate",
-            Quantity::Control => "control",
-            Quantity::Parameter => "parameter",
-            Quantity::Time => "time of the belief",
-        }
-    }
-}
-
 /// Why a solver went no further.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Halt {
@@ -134,6 +76,15 @@ pub enum Fault {
         quantity: Quantity,
         /// Which component, from zero.
         component: usize,
+    },
+    /// A number given to the filter that is too large, or too small, for the numbers that it computes with.
+    Unrepresentable {
+        /// What.
+        quantity: Quantity,
+        /// Which component, from zero.
+        component: usize,
+        /// The number.
+        value: f64,
     },
     /// The points of the rule lose more than an eighth of their steps in a component of the state, beside its mean: its
     /// standard deviation is below the spacing of numbers there.
@@ -218,6 +169,13 @@ impl fmt::Display for Fault {
                     _ => Ok(()),
                 }
             }
+            Fault::Unrepresentable { quantity, component, value } => write!(
+                f,
+                "component {} of the {}, {}, is beyond what f32 can keep (1.2e-38 to 3.4e38); choose other units, or f64",
+                component + 1,
+                quantity.name(),
+                Shown(value)
+            ),
             Fault::Indistinct { component } => write!(
                 f,
                 "the points of component {} of the state cannot be told from its mean: its standard deviation is below \

@@ -6,6 +6,7 @@ mod constants;
 mod continuous;
 mod distinct;
 mod error;
+mod fits;
 mod form;
 mod gaussian;
 mod inside;
@@ -16,6 +17,7 @@ mod lockstep;
 pub(crate) mod memory;
 mod methods;
 pub mod predict;
+mod quantity;
 mod sizes;
 mod snapshot;
 mod start;
@@ -29,12 +31,13 @@ pub use continuous::{
     CdCkf, CdCkf1, CdCkf2, CdEkf, CdGhkf1, CdGhkf2, CdUkf, CdUkf1, Lskf, SrCdCkf, SrCdCkf1, SrCdCkf2,
     SrCdEkf, SrCdGhkf1, SrCdGhkf2, SrCdUkf, SrCdUkf1,
 };
-pub use error::{Fault, Halt, Matrix, Quantity, StepError};
+pub use error::{Fault, Halt, Matrix, StepError};
 pub use form::{Belief, Covariance, Form, SquareRoot};
 #[cfg(feature = "alloc")]
 pub use gaussian::Gaussian;
 pub use gaussian::{InvalidCovariance, factor_of_covariance};
 pub use methods::{Cdkf, Ckf, Ckf5, Ekf, Method, Over, Qkf, SrCdkf, SrCkf, SrCkf5, SrEkf, SrQkf, SrUkf, Ukf};
+pub use quantity::Quantity;
 pub use sizes::Sizes;
 pub use snapshot::Carried;
 #[cfg(feature = "alloc")]

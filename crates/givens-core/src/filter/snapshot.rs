@@ -1,8 +1,9 @@
 //! What a filter carries from step to step, as plain data: a filter that starts from it goes on with the same numbers.
 
-use super::error::{Fault, Quantity, StepError};
+use super::error::{Fault, StepError};
 use super::form::Form;
 use super::methods::{Method, Over};
+use super::quantity::Quantity;
 use super::sizes::Sizes;
 use super::stepper::Filter;
 use crate::ode::Work;

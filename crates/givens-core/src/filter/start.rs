@@ -1,9 +1,11 @@
 //! How a filter begins: from a belief, in memory that is laid out once.
 
-use super::error::{Fault, Quantity, StepError};
+use super::error::{Fault, StepError};
+use super::fits::{fits, variances_fit};
 use super::form::Form;
 use super::methods::Over;
 use super::predict::TimeUpdate;
+use super::quantity::Quantity;
 use super::sizes::Sizes;
 use super::stepper::{Filter, Parts, layout, parts};
 use crate::model::At;
@@ -31,7 +33,7 @@ impl<'m, X: Over<M>, M, T: Real, B: AsMut<[T]>> Filter<'m, X, M, T, B> {
     /// every prediction also leaves what a smoother needs to come [`back`](Self::backward) over it.
     ///
     /// # Errors
-    /// An option out of its range, a slice of the wrong length, a number that is not finite.
+    /// An option out of its range, a slice of the wrong length, a number that is not finite, or beyond the range of `T`.
     pub fn start_in(
         method: X,
         model: &'m M,
@@ -49,6 +51,8 @@ impl<'m, X: Over<M>, M, T: Real, B: AsMut<[T]>> Filter<'m, X, M, T, B> {
                 return Err(StepError { fault, time, step: 0 });
             }
         }
+        let fit = fits::<T>(mean, Quantity::Estimate).and_then(|()| variances_fit::<T>(factor, cov));
+        fit.map_err(|fault| StepError { fault, time, step: 0 })?;
         let belief = filter.parts().belief;
         for (to, from) in [(belief.mean, mean), (belief.factor, factor), (belief.cov, cov)] {
             to.iter_mut().zip(from).for_each(|(to, &x)| *to = T::of(x));
@@ -75,6 +79,8 @@ impl<'m, X: Over<M>, M, T: Real, B: AsMut<[T]>> Filter<'m, X, M, T, B> {
         let shape = method.rule().shape(n);
         let time_update = method.time_update();
         time_update.check(model).map_err(fail)?;
+        time_update.resolves(T::EPSILON).map_err(fail)?;
+        fits::<T>(time_update.parameters(model), Quantity::Parameter).map_err(fail)?;
         let layout = layout::<X, M>(&method, sizes, smoothing);
         let (square, needs) = (n.saturating_mul(n), time_update.sizes(model, shape));
         let own_cov = if X::Form::SQUARE_ROOT && cov == 0 { 0 } else { square };

@@ -1,12 +1,14 @@
 //! A filter in motion: its memory, its start, and what it knows.
 
 use super::backward::Backward;
-use super::error::{Fault, Quantity, StepError};
+use super::error::{Fault, StepError};
+use super::fits::fits;
 use super::form::{Belief, Form};
 use super::layout::Layout;
 use super::memory::take;
 use super::methods::Over;
 use super::predict::TimeUpdate;
+use super::quantity::Quantity;
 use super::sizes::{Sizes, countable};
 use super::update::Learnt;
 use crate::ode::Work;
@@ -157,7 +159,7 @@ impl<X: Over<M>, M, T: Real, B: AsMut<[T]>> Filter<'_, X, M, T, B> {
     /// them before.
     ///
     /// # Errors
-    /// A wrong number of them, or one that is not finite.
+    /// A wrong number of them, or one that is not finite, or beyond the range of `T`.
     pub fn set_controls(&mut self, u: &[f64]) -> Result<(), StepError> {
         let (time, step) = (self.time, self.step);
         set(self.parts().u, u, "controls", Quantity::Control).map_err(|fault| StepError {
@@ -172,7 +174,7 @@ impl<X: Over<M>, M, T: Real, B: AsMut<[T]>> Filter<'_, X, M, T, B> {
     /// Sets the parameters, in place of the model's own.
     ///
     /// # Errors
-    /// A wrong number of them, or one that is not finite.
+    /// A wrong number of them, or one that is not finite, or beyond the range of `T`.
     pub fn set_parameters(&mut self, p: &[f64]) -> Result<(), StepError> {
         let (time, step) = (self.time, self.step);
         set(self.parts().p, p, "parameters", Quantity::Parameter).map_err(|fault| StepError {
@@ -195,6 +197,7 @@ pub(super) fn set<T: Real>(
     if let Some(component) = from.iter().position(|x| !x.is_finite()) {
         return Err(Fault::NotFinite { quantity, component });
     }
+    fits::<T>(from, quantity)?;
     to.iter_mut().zip(from).for_each(|(to, &x)| *to = T::of(x));
     Ok(())
 }

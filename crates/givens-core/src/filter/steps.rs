@@ -4,9 +4,11 @@ use super::Matrix;
 use super::backward::accumulate;
 use super::distinct::{distinct, judge, lower, note};
 use super::error::{Fault, StepError};
+use super::fits::fits;
 use super::lanes::lanes;
 use super::methods::Over;
 use super::predict::{Given, Plan, Stopped, TimeUpdate};
+use super::quantity::Quantity;
 use super::stepper::{Filter, Parts, layout};
 use super::update::{InnovationMut, Measurement, Present, update};
 use crate::model::{At, Observation};
@@ -125,7 +127,9 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
             }
             Ok(sick) => Ok(sick),
             Err(Stopped { reached, fault }) => {
-                return Err(StepError { fault, time: reached.unwrap_or(t + dt), step });
+                // a time of the solver is counted from that of the model, which may be rounded
+                let time = reached.map_or(t + dt, |reached| reached + (t - start.first()));
+                return Err(StepError { fault, time, step });
             }
         };
         let sick = chain.map_err(|fault| StepError { fault, time: t + dt, step })?;
@@ -194,6 +198,7 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
             return Err(fail(Fault::ControlsNotSet { controls: self.layout.sizes.controls }));
         }
         self.make_room(sensor).map_err(fail)?;
+        fits::<T>(z, Quantity::Measurement).map_err(fail)?;
         self.parts().measured[..d].iter_mut().zip(z).for_each(|(to, &z)| *to = T::of(z));
         Ok(())
     }

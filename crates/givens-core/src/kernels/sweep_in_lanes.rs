@@ -22,8 +22,7 @@ pub const fn sweep_scratch(d: usize, n: usize) -> usize {
 /// apart.
 #[inline(always)]
 pub(super) fn sweep_in_lanes<T: Real>(a: &mut [T], d: usize, n: usize, scratch: &mut [T]) -> usize {
-    let one = matches!(Grain::of::<T>(), Some(Grain { set: None, depth: 0 }));
-    if !one || LANES == 1 || n < FEWEST {
+    if !Grain::is_double::<T>() || LANES == 1 || n < FEWEST {
         return 0;
     }
     sweep_f64(floats_mut(a), d, n, floats_mut(scratch))

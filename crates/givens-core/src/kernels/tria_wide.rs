@@ -15,8 +15,7 @@ const TALLEST: usize = 32;
 /// the next one has nothing left.
 #[inline(always)]
 pub(super) fn tria_in_packs<T: Real>(a: &mut [T], rows: usize, columns: usize, stride: usize) -> usize {
-    let one = matches!(Grain::of::<T>(), Some(Grain { set: None, depth: 0 }));
-    if !one || LANES == 1 {
+    if !Grain::is_double::<T>() || LANES == 1 {
         return 0;
     }
     tria_f64(floats_mut(a), rows, columns, stride)

@@ -1,7 +1,7 @@
 //! The points of one filter side by side in the lanes of packs: a map of one point costs nearly as much as that of four.
 
 use super::{At, Map};
-use crate::scalar::{Grain, Job, LANES, NARROW, Pack, Real, floats, floats_mut, numbers_mut};
+use crate::scalar::{Grain, Job, LANES, NARROW, Pack, Real, floats, floats_mut, numbers_mut, words_mut};
 
 /// How many points a filter over `T` had better evaluate by `g` in place of `points`, so that they fill the lanes: no more
 /// where they go one by one.
@@ -39,7 +39,7 @@ pub(crate) fn scratch_for(scratch: impl Fn(usize) -> usize, points: usize, besid
 /// Only the points of one filter in `f64` are laid side by side.
 #[inline(always)]
 fn lanes_of_its_own<T: Real>() -> bool {
-    !matches!(Grain::of::<T>(), Some(Grain { set: None, depth: 0 }))
+    !Grain::is_double::<T>()
 }
 
 /// Evaluates `g` at [`filled`] points, in packs where the machine and the memory are fit for them. `x` and `y` as in
@@ -98,12 +98,18 @@ impl<G: Map> Job<f64> for SideBySide<'_, G> {
         let Self { g, at, points, x, y, scratch } = self;
         let skip = misaligned(scratch);
         let (constants, rest) = scratch[skip..].split_at_mut(beside * P::WIDTH);
-        let constants = numbers_mut::<P>(constants);
+        let constants = numbers_mut::<P>(words_mut(constants));
         for (to, &of) in constants.iter_mut().zip(at.u.iter().chain(at.p)) {
             *to = P::splat(of);
         }
         let (u, p) = constants.split_at(at.u.len());
         let at = At { t: P::splat(at.t), dt: P::splat(at.dt), u, p };
-        g.points(&at, points / P::WIDTH, numbers_mut(x), numbers_mut(y), numbers_mut(rest));
+        g.points(
+            &at,
+            points / P::WIDTH,
+            numbers_mut(words_mut(x)),
+            numbers_mut(words_mut(y)),
+            numbers_mut(words_mut(rest)),
+        );
     }
 }

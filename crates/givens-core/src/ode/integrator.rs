@@ -71,6 +71,9 @@ pub enum Steps {
     Longest(f64),
 }
 
+/// The smallest tolerance of steps in `f32`.
+const LEAST_IN_F32: f64 = 1e-6;
+
 /// The options of an integration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Integrator {
@@ -129,6 +132,19 @@ impl Integrator {
             _ if self.limit == 0 => wrong("limit", 0.0, "must be at least 1"),
             _ => Ok(()),
         }
+    }
+
+    /// Whether numbers of this relative spacing can keep the tolerance: there is always some rounding in the error of a step.
+    ///
+    /// # Errors
+    /// A tolerance that is no more than the rounding of `f32`.
+    pub fn resolves(&self, epsilon: f64) -> Result<(), RuleError> {
+        let Tolerance { rtol, atol } = self.tolerance;
+        if self.solver.adaptive() && epsilon > f64::EPSILON && atol == 0.0 && rtol < LEAST_IN_F32 {
+            let must = "must be at least 1e-6 in f32, which rounds to 1e-7; or set precision = f64";
+            return Err(RuleError { option: "rtol", value: rtol, must });
+        }
+        Ok(())
     }
 
     fn bounds(&self) -> Bounds {

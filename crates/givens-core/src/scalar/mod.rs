@@ -9,7 +9,7 @@ mod pack;
 mod shown;
 
 pub use dual::{Dual2, as_duals};
-pub(crate) use grain::{Grain, floats, floats_mut, numbers, numbers_mut};
+pub(crate) use grain::{Grain, Word, floats, floats_mut, numbers, numbers_mut, words, words_mut};
 pub use pack::{Element, InstructionSet, Job, LaneMask, MAX_WIDTH, Pack, gather, scatter};
 pub(crate) use pack::{LANES, NARROW};
 pub use shown::Shown;

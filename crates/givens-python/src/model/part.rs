@@ -28,9 +28,10 @@ pub enum Body {
     Called(How),
 }
 
-/// Whether a scalar is a plain number: one without derivatives.
+/// Whether a scalar is a plain number: one without derivatives. A function that is called takes `f64`, and what it gives is
+/// rounded where a method computes in `f32`.
 fn plain<T: Real>() -> bool {
-    TypeId::of::<T>() == TypeId::of::<f64>()
+    [TypeId::of::<f64>(), TypeId::of::<f32>()].contains(&TypeId::of::<T>())
 }
 
 fn numbers<T: Real>(from: &[T]) -> Vec<f64> {

@@ -6,7 +6,7 @@ use crate::filter::{Filter, Over, Prior};
 use crate::model::Observation;
 use crate::rule::Rule;
 use crate::run::{Goal, Outcome, Watch};
-use crate::scalar::{InstructionSet, Job, LaneMask, MAX_WIDTH, Mask, Pack};
+use crate::scalar::{Element, InstructionSet, Job, LaneMask, MAX_WIDTH, Mask, Pack, Real};
 use crate::smoother::{History, Smoothed};
 use core::ops::ControlFlow;
 
@@ -19,26 +19,26 @@ pub(super) struct Lockstep<'s, 't, X, M, H> {
 }
 
 /// Lanes of the packs of an instruction set; one where it is none of this machine's registers.
-pub(super) fn width(vectors: InstructionSet) -> usize {
+pub(super) fn width<E: Element>(vectors: InstructionSet) -> usize {
     struct Width;
-    impl Job<f64> for Width {
+    impl<E: Element> Job<E> for Width {
         type Output = usize;
         const AVX512: bool = false;
         #[inline(always)]
-        fn run<P: Pack<Element = f64>>(self) -> usize {
+        fn run<P: Pack<Element = E>>(self) -> usize {
             P::WIDTH
         }
     }
-    vectors.run_in_registers(Width).unwrap_or(1)
+    vectors.run_in_registers::<E, _>(Width).unwrap_or(1)
 }
 
-impl<X: Over<M>, M, H: Observation> Job<f64> for Lockstep<'_, '_, X, M, H> {
+impl<X: Over<M>, M, H: Observation, E: Element> Job<E> for Lockstep<'_, '_, X, M, H> {
     /// For each track what came of it, or none if it is to be run alone.
     type Output = Vec<Option<Outcome>>;
     const AVX512: bool = false;
 
     #[inline(always)]
-    fn run<P: Pack<Element = f64>>(self) -> Self::Output {
+    fn run<P: Pack<Element = E>>(self) -> Self::Output {
         let Self { method, tracks, goal, watch } = self;
         let nothing = || tracks.iter().map(|_| None).collect();
         let Some((mut filter, begun)) = begin::<P, X, M, H>(method, tracks, goal) else {
@@ -91,7 +91,7 @@ type OfPacks<'m, X, M, P> = Filter<'m, X, M, P, Vec<P>>;
 /// It, and the lanes whose track has begun in it. A track that could not begin is left to be run alone, which
 /// says why.
 #[inline(always)]
-fn begin<'m, P: Pack<Element = f64>, X: Over<M>, M, H: Observation>(
+fn begin<'m, P: Pack, X: Over<M>, M, H: Observation>(
     method: X,
     tracks: &[Track<'m, M, H>],
     goal: Goal,
@@ -107,7 +107,7 @@ fn begin<'m, P: Pack<Element = f64>, X: Over<M>, M, H: Observation>(
         cov: track.prior.cov(),
     };
     let len = Filter::<X, M, P, Vec<P>>::memory_len(&method, sizes, smoothing);
-    let mut one = vec![0.0; len];
+    let mut one = vec![P::Element::zero(); len];
     let mut filter: Option<OfPacks<'m, X, M, P>> = None;
     let mut begun = 0;
     for (lane, track) in tracks.iter().enumerate() {
@@ -149,7 +149,7 @@ struct Rows<P: Pack> {
     active: u32,
 }
 
-impl<P: Pack<Element = f64>> Rows<P> {
+impl<P: Pack> Rows<P> {
     #[inline(always)]
     fn begin<M, H: Observation>(tracks: &[Track<M, H>], controls: usize, begun: u32) -> Self {
         let mut from = [0.0; MAX_WIDTH];
@@ -176,7 +176,7 @@ impl<P: Pack<Element = f64>> Rows<P> {
         self.present.fill(P::Mask::splat(false));
         for (lane, track) in tracks.iter().enumerate() {
             let row = track.data.row(k).filter(|_| self.well >> lane & 1 == 1);
-            if row.is_some_and(|row| row.u.iter().any(|u| !u.is_finite())) {
+            if row.is_some_and(|row| row.u.iter().any(|&u| !P::Element::of(u).finite())) {
                 self.well &= !(1 << lane);
             }
             let row = row.filter(|_| self.well >> lane & 1 == 1);
@@ -184,15 +184,15 @@ impl<P: Pack<Element = f64>> Rows<P> {
             let Some(row) = row else { continue };
             self.active |= 1 << lane;
             for (i, &z) in row.z.iter().enumerate() {
-                self.z[i] = self.z[i].with_lane(lane, z);
+                self.z[i] = self.z[i].with_lane(lane, P::Element::of(z));
                 if !z.is_nan() {
                     self.present[i] = self.present[i] | P::Mask::of_bits(1 << lane);
                 }
             }
             for (i, &u) in row.u.iter().enumerate() {
-                self.after[i] = self.after[i].with_lane(lane, u);
+                self.after[i] = self.after[i].with_lane(lane, P::Element::of(u));
                 if k == 0 {
-                    self.before[i] = self.before[i].with_lane(lane, u);
+                    self.before[i] = self.before[i].with_lane(lane, P::Element::of(u));
                 }
             }
         }

@@ -5,10 +5,10 @@ mod pack;
 mod record;
 mod workers;
 
-use crate::Data;
-use crate::filter::{Fault, Gaussian, Over, StepError};
+use crate::filter::{Fault, Gaussian, StepError};
 use crate::model::Observation;
 use crate::run::{Goal, Outcome, Watch, run_until};
+use crate::{Computes, Data};
 use core::num::NonZeroUsize;
 use core::sync::atomic::{AtomicBool, AtomicUsize};
 use lockstep::Lockstep;
@@ -111,7 +111,7 @@ impl Batch<'_> {
     /// outcomes stand in the order of the tracks; a track that was not done when the batch was cancelled has none.
     pub fn run<X, M, H>(&self, method: X, tracks: &[Track<M, H>]) -> Vec<Option<Outcome>>
     where
-        X: Over<M> + Sync,
+        X: Computes<M, Method: Sync> + Sync,
         M: Sync,
         H: Observation + Sync,
     {
@@ -126,14 +126,15 @@ impl Batch<'_> {
         alone: impl Fn(&Track<M, H>) -> Option<Outcome> + Sync,
     ) -> Vec<Option<Outcome>>
     where
-        X: Over<M> + Sync,
+        X: Computes<M, Method: Sync> + Sync,
         M: Sync,
         H: Observation + Sync,
     {
-        let width = if packable(&method, self.goal) { lockstep::width(self.vectors) } else { 1 };
+        let by = method.method();
+        let width = if packable(&by, self.goal) { lockstep::width::<X::Number>(self.vectors) } else { 1 };
         let pack = |of: &[Track<M, H>]| {
-            let job = Lockstep { method, tracks: of, goal: self.goal, watch: self.watch() };
-            self.vectors.run_in_registers(job).unwrap_or_default()
+            let job = Lockstep { method: by, tracks: of, goal: self.goal, watch: self.watch() };
+            self.vectors.run_in_registers::<X::Number, _>(job).unwrap_or_default()
         };
         self.run_by(tracks, width, pack, alone)
     }
@@ -167,7 +168,7 @@ impl Batch<'_> {
     }
 
     /// One track by itself.
-    pub(crate) fn alone<X: Over<M>, M, H: Observation>(
+    pub(crate) fn alone<X: Computes<M>, M, H: Observation>(
         &self,
         method: X,
         track: &Track<M, H>,

@@ -6,20 +6,20 @@ use crate::filter::{Filter, Innovation, Over};
 use crate::kernels::square;
 use crate::model::Observation;
 use crate::run::{Goal, Outcome};
-use crate::scalar::{LaneMask, MAX_WIDTH, Pack};
+use crate::scalar::{LaneMask, MAX_WIDTH, Pack, Real};
 
 /// The estimates of the tracks of a pack.
-pub(super) struct Lanes<P> {
+pub(super) struct Lanes<P: Pack> {
     of: Vec<Estimates>,
     states: usize,
     measures: usize,
     goal: Goal,
     /// A matrix of packs, and its numbers lane by lane.
     matrix: Vec<P>,
-    numbers: Vec<f64>,
+    numbers: Vec<P::Element>,
 }
 
-impl<P: Pack<Element = f64>> Lanes<P> {
+impl<P: Pack> Lanes<P> {
     /// Room for all rows of the tracks.
     pub fn new<M, H: Observation>(tracks: &[Track<M, H>], goal: Goal) -> Self {
         let (n, d) = (tracks[0].prior.mean().len(), tracks[0].sensors.measures());
@@ -52,7 +52,7 @@ impl<P: Pack<Element = f64>> Lanes<P> {
             measures: d,
             goal,
             matrix: vec![P::zero(); largest],
-            numbers: vec![0.0; largest * P::WIDTH],
+            numbers: vec![P::Element::zero(); largest * P::WIDTH],
         }
     }
 
@@ -105,7 +105,7 @@ impl<P: Pack<Element = f64>> Lanes<P> {
             return;
         }
         square(&mut matrix[..rows * rows], rows, innovation.factor, rows, rows);
-        let (mut nu, mut cov) = ([0.0; MAX_WIDTH], [0.0; MAX_WIDTH]);
+        let (mut nu, mut cov) = ([P::Element::zero(); MAX_WIDTH], [P::Element::zero(); MAX_WIDTH]);
         let there = |i: usize| present[i].bits() & active;
         // a row of the innovation for each component that any lane has
         let mut row = 0;
@@ -115,7 +115,7 @@ impl<P: Pack<Element = f64>> Lanes<P> {
             }
             innovation.nu[row].store(&mut nu);
             for (lane, out) in self.of.iter_mut().enumerate().filter(|(lane, _)| there(i) >> lane & 1 == 1) {
-                out.innovation[k * d + i] = nu[lane];
+                out.innovation[k * d + i] = nu[lane].first();
                 out.nis_dof[k] += 1;
             }
             let mut column = 0;
@@ -126,7 +126,7 @@ impl<P: Pack<Element = f64>> Lanes<P> {
                 matrix[row * rows + column].store(&mut cov);
                 let both = there(i) & there(j);
                 for (lane, out) in self.of.iter_mut().enumerate().filter(|(lane, _)| both >> lane & 1 == 1) {
-                    out.innovation_cov[k * d * d + i * d + j] = cov[lane];
+                    out.innovation_cov[k * d * d + i * d + j] = cov[lane].first();
                 }
                 column += 1;
             }
@@ -136,7 +136,7 @@ impl<P: Pack<Element = f64>> Lanes<P> {
         innovation.log_likelihood.store(&mut cov);
         for (lane, out) in self.of.iter_mut().enumerate() {
             if active >> lane & 1 == 1 && out.nis_dof[k] > 0 {
-                (out.nis[k], out.log_likelihood[k]) = (nu[lane], cov[lane]);
+                (out.nis[k], out.log_likelihood[k]) = (nu[lane].first(), cov[lane].first());
             }
         }
     }
@@ -180,7 +180,7 @@ impl<P: Pack<Element = f64>> Lanes<P> {
             if active >> lane & 1 == 1 {
                 let row = &mut array(out)[k * packs.len()..(k + 1) * packs.len()];
                 for (to, numbers) in row.iter_mut().zip(self.numbers.chunks_exact(P::WIDTH)) {
-                    *to = numbers[lane];
+                    *to = numbers[lane].first();
                 }
             }
         }

@@ -5,7 +5,8 @@ mod remedy;
 
 use crate::filter::{Fault, Halt, Matrix};
 use crate::ode::Solver;
-use crate::registry::{Choice, FormName, Kind};
+use crate::registry::{Choice, FormName, Kind, Precision};
+use crate::scalar::Shown;
 
 /// Who speaks: options are set in one way on the command line and in another in Python.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -82,6 +83,16 @@ impl Explain<'_> {
     pub fn told(&self, choice: Option<&Choice>, fault: &Fault) -> Told {
         let component = self.component(fault).map(str::to_owned);
         let (what, remedy) = self.words(choice, fault);
+        let remedy =
+            if rounded(choice, fault) {
+                let double = self.face.set("precision", "f64");
+                Some(remedy.map_or_else(
+                    || double.clone(),
+                    |remedy| format!("{remedy}; or compute in f64 ({double})"),
+                ))
+            } else {
+                remedy
+            };
         Told { what, remedy, component }
     }
 
@@ -90,10 +101,12 @@ impl Explain<'_> {
         let (names, i) = match *fault {
             Fault::NotPositive { matrix, pivot } if of_measures(matrix) => (self.measures, pivot),
             Fault::SingularInnovation { measure } => (self.measures, measure),
-            Fault::NotFinite { quantity, component } => match not_finite::of_what(quantity)? {
-                not_finite::Of::State => (self.states, component),
-                not_finite::Of::Measure => (self.measures, component),
-            },
+            Fault::NotFinite { quantity, component } | Fault::Unrepresentable { quantity, component, .. } => {
+                match not_finite::of_what(quantity)? {
+                    not_finite::Of::State => (self.states, component),
+                    not_finite::Of::Measure => (self.measures, component),
+                }
+            }
             Fault::NotPositive { pivot, .. } | Fault::SingularFactor { pivot } => (self.states, pivot),
             Fault::Indistinct { component } | Fault::Unresolved { component } => (self.states, component),
             _ => return None,
@@ -137,6 +150,19 @@ impl Explain<'_> {
                 let form = set("form", "square-root");
                 let remedy = format!("give it a std above zero, or try the square-root form ({form})");
                 (format!("{what} that the others do not say, to the digits that a covariance keeps"), remedy)
+            }
+            Fault::Unrepresentable { quantity, component, value } => {
+                let of = match not_finite::of_what(quantity) {
+                    Some(not_finite::Of::State) => self.state(component),
+                    Some(not_finite::Of::Measure) => self.measure(component),
+                    None => (component + 1).to_string(),
+                };
+                let what = format!(
+                    "the {} of {of}, {}, is beyond what f32 can keep (1.2e-38 to 3.4e38)",
+                    quantity.name(),
+                    Shown(value)
+                );
+                (what, "choose other units".to_owned())
             }
             Fault::Indistinct { component } => {
                 let what = format!(
@@ -210,6 +236,21 @@ impl Explain<'_> {
         };
         (what, Some(remedy))
     }
+}
+
+/// Whether more digits than those of `f32` may help.
+fn rounded(choice: Option<&Choice>, fault: &Fault) -> bool {
+    let of_numbers = matches!(
+        fault,
+        Fault::NotPositive { .. }
+            | Fault::SingularInnovation { .. }
+            | Fault::NotFinite { .. }
+            | Fault::Unrepresentable { .. }
+            | Fault::Indistinct { .. }
+            | Fault::Solver { .. }
+            | Fault::Unresolved { .. }
+    );
+    of_numbers && choice.is_some_and(|choice| choice.precision == Precision::F32)
 }
 
 /// Whether the pivots of a matrix are measures.

@@ -1,11 +1,14 @@
 //! A filter of a method chosen at run time, stepped by hand.
 
+use super::stepping::{Stepping, With};
 use crate::filter::{Innovation, Over, Snapshot, StepError};
 use crate::model::Observation;
 use crate::ode::Work;
 use crate::run::{OwnFilter, scatter};
+use crate::scalar::Element;
 
-/// A filter in motion whose method was chosen at run time: predicted and updated by hand, in `f64`.
+/// A filter in motion whose method was chosen at run time: predicted and updated by hand. What it tells is in `f64`, also where
+/// it computes in `f32`.
 ///
 /// It gives the numbers of [`Choice::run`](super::Choice::run) to the bit if it is stepped as that is: predict to a row's time, set the row's
 /// controls, update.
@@ -31,70 +34,13 @@ pub struct AnyFilter<'m> {
 }
 
 impl<'m> AnyFilter<'m> {
-    pub(super) fn of<X, M, H>(filter: OwnFilter<'m, X, M>, sensors: &'m H) -> Self
+    pub(super) fn of<X, M, H, T: Element>(filter: OwnFilter<'m, X, M, T>, sensors: &'m H) -> Self
     where
         X: Over<M> + Send + Sync + 'static,
         M: Sync,
         H: Observation + Sync,
     {
-        Self { inner: Box::new(With { filter, sensors }), present: vec![false; sensors.measures()] }
-    }
-}
-
-/// What any filter can do, whatever its types.
-trait Stepping {
-    fn predict(&mut self, t: f64) -> Result<(), StepError>;
-    fn update(&mut self, z: &[f64], present: &[bool]) -> Result<(), StepError>;
-    fn set_controls(&mut self, u: &[f64]) -> Result<(), StepError>;
-    fn set_parameters(&mut self, p: &[f64]) -> Result<(), StepError>;
-    fn time(&self) -> f64;
-    fn mean(&self) -> &[f64];
-    fn factor(&self) -> &[f64];
-    fn cov(&self) -> Vec<f64>;
-    fn innovation(&self) -> Innovation<'_, f64>;
-    fn work(&self) -> Work;
-    fn snapshot(&self) -> Snapshot;
-}
-
-/// A filter and its sensors.
-struct With<'m, X, M, H> {
-    filter: OwnFilter<'m, X, M>,
-    sensors: &'m H,
-}
-
-impl<X: Over<M>, M, H: Observation> Stepping for With<'_, X, M, H> {
-    fn predict(&mut self, t: f64) -> Result<(), StepError> {
-        self.filter.predict(t)
-    }
-    fn update(&mut self, z: &[f64], present: &[bool]) -> Result<(), StepError> {
-        self.filter.update_present(self.sensors, z, present)
-    }
-    fn set_controls(&mut self, u: &[f64]) -> Result<(), StepError> {
-        self.filter.set_controls(u)
-    }
-    fn set_parameters(&mut self, p: &[f64]) -> Result<(), StepError> {
-        self.filter.set_parameters(p)
-    }
-    fn time(&self) -> f64 {
-        self.filter.time()
-    }
-    fn mean(&self) -> &[f64] {
-        self.filter.mean()
-    }
-    fn factor(&self) -> &[f64] {
-        self.filter.factor()
-    }
-    fn cov(&self) -> Vec<f64> {
-        self.filter.cov()
-    }
-    fn innovation(&self) -> Innovation<'_, f64> {
-        self.filter.innovation()
-    }
-    fn work(&self) -> Work {
-        self.filter.work()
-    }
-    fn snapshot(&self) -> Snapshot {
-        self.filter.snapshot()
+        Self { inner: Box::new(With::new(filter, sensors)), present: vec![false; sensors.measures()] }
     }
 }
 

@@ -1,10 +1,11 @@
 //! A chosen method over many trajectories.
 
 use super::choice::Choice;
-use super::dispatch::{Job, Packed};
+use super::dispatch::{Computing, Job, Packed};
+use super::words::Precision;
+use crate::Single;
 use crate::batch::{Batch, Track, refused};
-use crate::filter::Over;
-use crate::filter::predict::OneTransition;
+use crate::filter::predict::{OneTransition, TimeUpdate};
 use crate::model::{AnyObservation, AnySde, AnyTransition, Observation, Sde, Transition};
 use crate::run::Outcome;
 use std::collections::HashMap;
@@ -49,8 +50,7 @@ impl Choice {
             self.discrete(Alone { track, batch }).ok().flatten()
         };
         match self.packed(OneTransition) {
-            Some(Packed::Points(by)) => batch.run_with(by, tracks, alone),
-            Some(Packed::Taylor(by)) => batch.run_with(by, tracks, alone),
+            Some(packed) => self.in_packs(packed, tracks, batch, alone),
             None => batch.run_by(tracks, 1, |_| Vec::new(), alone),
         }
     }
@@ -66,9 +66,28 @@ impl Choice {
         let alone =
             |track: &Track<AnySde, AnyObservation>| self.continuous(Alone { track, batch }).ok().flatten();
         match self.ito_taylor().and_then(|time| self.packed(time)) {
-            Some(Packed::Points(by)) => batch.run_with(by, tracks, alone),
-            Some(Packed::Taylor(by)) => batch.run_with(by, tracks, alone),
+            Some(packed) => self.in_packs(packed, tracks, batch, alone),
             None => batch.run_by(tracks, 1, |_| Vec::new(), alone),
+        }
+    }
+}
+
+impl Choice {
+    fn in_packs<U, M: Sync, H: Observation + Sync>(
+        &self,
+        packed: Packed<U>,
+        tracks: &[Track<M, H>],
+        batch: &Batch,
+        alone: impl Fn(&Track<M, H>) -> Option<Outcome> + Sync,
+    ) -> Vec<Option<Outcome>>
+    where
+        U: TimeUpdate<M> + Sync,
+    {
+        match (packed, self.precision) {
+            (Packed::Points(by), Precision::F64) => batch.run_with(by, tracks, alone),
+            (Packed::Points(by), Precision::F32) => batch.run_with(Single(by), tracks, alone),
+            (Packed::Taylor(by), Precision::F64) => batch.run_with(by, tracks, alone),
+            (Packed::Taylor(by), Precision::F32) => batch.run_with(Single(by), tracks, alone),
         }
     }
 }
@@ -116,7 +135,7 @@ struct Nothing;
 
 impl<M> Job<M> for Nothing {
     type Done = ();
-    fn with<X: Over<M> + Send + Sync + 'static>(self, _: X) {}
+    fn with<X: Computing<M>>(self, _: X) {}
 }
 
 /// One track by itself.
@@ -127,7 +146,7 @@ struct Alone<'s, 't, M, H> {
 
 impl<M, H: Observation> Job<M> for Alone<'_, '_, M, H> {
     type Done = Option<Outcome>;
-    fn with<X: Over<M> + Send + Sync + 'static>(self, method: X) -> Self::Done {
+    fn with<X: Computing<M>>(self, method: X) -> Self::Done {
         self.batch.alone(method, self.track)
     }
 }

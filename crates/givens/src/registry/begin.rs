@@ -2,8 +2,8 @@
 
 use super::any_filter::AnyFilter;
 use super::choice::Choice;
-use super::dispatch::Job;
-use crate::filter::{Gaussian, Over, Snapshot, StepError};
+use super::dispatch::{Computing, Job};
+use crate::filter::{Gaussian, Snapshot, StepError};
 use crate::model::{Observation, Sde, Transition};
 use crate::run::{Start, start_own};
 
@@ -80,9 +80,9 @@ struct Begin<'s, 'm, M, H> {
 
 impl<'m, M: Sync, H: Observation + Sync> Job<M> for Begin<'_, 'm, M, H> {
     type Done = Result<AnyFilter<'m>, StepError>;
-    fn with<X: Over<M> + Send + Sync + 'static>(self, method: X) -> Self::Done {
+    fn with<X: Computing<M>>(self, method: X) -> Self::Done {
         let Self { model, sensors, start } = self;
-        let filter = start_own(method, model, sensors, start, false)?;
+        let filter = start_own::<X::Method, M, H, X::Number>(method.method(), model, sensors, start, false)?;
         Ok(AnyFilter::of(filter, sensors))
     }
 }

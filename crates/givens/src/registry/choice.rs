@@ -2,7 +2,9 @@
 
 use super::entry::{ENTRIES, Entry, find};
 use super::setting::SettingError;
-use super::words::{FormName, GAUGES, Kind, ROOTS, RuleName, TimeName, VARIANTS, VELOCITIES, word_of};
+use super::words::{
+    FormName, GAUGES, Kind, Precision, ROOTS, RuleName, TimeName, VARIANTS, VELOCITIES, word_of,
+};
 use crate::filter::Block;
 use crate::filter::predict::{Gauge, Root, Variant, Velocity};
 use crate::ode::{Integrator, Steps};
@@ -32,6 +34,8 @@ pub struct Choice {
     pub velocity: Velocity,
     /// The solver, its steps and its tolerance; the steps are those of the other time updates too.
     pub integrator: Integrator,
+    /// What it computes with.
+    pub precision: Precision,
     /// Options of the unscented rule.
     pub unscented: Unscented,
     /// Options of the Gauss–Hermite rule.
@@ -49,6 +53,7 @@ impl Choice {
             ("rule", preset.rule.word(), self.rule.word()),
             ("form", preset.form.word(), self.form.word()),
             ("time update", preset.time_update.word(), self.time_update.word()),
+            ("precision", Precision::F64.word(), self.precision.word()),
         ];
         let changed = parts.iter().filter(|(_, own, set)| own != set);
         let changed = changed.map(|(part, _, set)| format!("{part} {set}"));

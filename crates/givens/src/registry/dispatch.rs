@@ -4,18 +4,27 @@
 use super::choice::Choice;
 use super::runtime::{AnyPoints, Parts};
 use super::time::{AnyTime, LEVEL_SET_IN_COVARIANCE};
-use super::words::{FormName, Kind, RuleName, TimeName};
+use super::words::{FormName, Kind, Precision, RuleName, TimeName};
 use crate::filter::predict::{EulerMaruyama, ItoTaylor, LevelSet, MomentOde, OneTransition, TimeUpdate};
-use crate::filter::{Covariance, Fault, Over, SquareRoot};
+use crate::filter::{Covariance, Fault, SquareRoot};
 use crate::model::{Sde, Transition};
 use crate::rule::{Cubature3, Cubature5, Rule, RuleError, Taylor};
+use crate::{Computes, Single};
 
 /// What is done with a method, once its parts are types.
 pub(super) trait Job<M> {
     /// What comes of it.
     type Done;
-    fn with<X: Over<M> + Send + Sync + 'static>(self, method: X) -> Self::Done;
+    fn with<X: Computing<M>>(self, method: X) -> Self::Done;
 }
+
+/// A method as types, in either precision.
+pub(super) trait Computing<M>:
+    Computes<M, Method: Send + Sync + 'static> + Send + Sync + 'static
+{
+}
+
+impl<M, X: Computes<M, Method: Send + Sync + 'static> + Send + Sync + 'static> Computing<M> for X {}
 
 /// A method that is compiled for packs.
 pub(super) enum Packed<U> {
@@ -31,6 +40,7 @@ impl Choice {
     pub fn check(&self, states: usize) -> Result<(), RuleError> {
         if self.kind() == Kind::Continuous {
             self.integrator.check()?;
+            self.integrator.resolves(self.precision.epsilon())?;
         }
         match self.rule {
             RuleName::CentralDifference => self.central_difference.check(states),
@@ -126,9 +136,16 @@ impl Choice {
         R: Rule + Send + Sync + 'static,
         U: TimeUpdate<M> + Send + Sync + 'static,
     {
+        let (block, single) = (self.block, self.precision == Precision::F32);
         match self.form {
-            FormName::Covariance => job.with(Parts::<R, Covariance, U>::new(rule, self.block, time)),
-            FormName::SquareRoot => job.with(Parts::<R, SquareRoot, U>::new(rule, self.block, time)),
+            FormName::Covariance => {
+                let method = Parts::<R, Covariance, U>::new(rule, block, time);
+                if single { job.with(Single(method)) } else { job.with(method) }
+            }
+            FormName::SquareRoot => {
+                let method = Parts::<R, SquareRoot, U>::new(rule, block, time);
+                if single { job.with(Single(method)) } else { job.with(method) }
+            }
         }
     }
 }

@@ -12,6 +12,7 @@ mod running;
 mod runtime;
 mod sampling;
 mod setting;
+mod stepping;
 mod time;
 mod words;
 
@@ -21,4 +22,4 @@ pub use entry::{ENTRIES, Entry, default_method, find, names};
 pub use option::{OPTIONS, OptionInfo, Reader};
 pub use resolve::resolve;
 pub use setting::{Setting, SettingError, Value};
-pub use words::{FormName, Kind, RuleName, TimeName};
+pub use words::{FormName, Kind, Precision, RuleName, TimeName};

@@ -5,7 +5,7 @@ use super::entry::{Entry, find, names};
 use super::option::OPTIONS;
 use super::setting::{Setting, SettingError, Value};
 use super::words::{
-    FormName, GAUGES, ROOTS, RuleName, SOLVERS, TimeName, UPDATES, VARIANTS, VELOCITIES, Words,
+    FormName, GAUGES, Precision, ROOTS, RuleName, SOLVERS, TimeName, UPDATES, VARIANTS, VELOCITIES, Words,
 };
 use crate::filter::Block;
 use crate::filter::predict::{Gauge, Root, Velocity};
@@ -65,6 +65,7 @@ fn preset(entry: &Entry) -> Choice {
         root: Root::default(),
         velocity: Velocity::default(),
         integrator: Integrator::default(),
+        precision: Precision::F64,
         unscented: Unscented::default(),
         gauss_hermite: GaussHermite::default(),
         central_difference: CentralDifference::default(),
@@ -78,6 +79,7 @@ fn part(choice: &mut Choice, at: usize, setting: &Setting) -> Result<(), Setting
         "form" => choice.form = word(at, setting, FormName::WORDS, FormName::parse)?,
         "time_update" => choice.time_update = word(at, setting, TimeName::WORDS, TimeName::parse)?,
         "update" => choice.block = among(at, setting, UPDATES)?,
+        "precision" => choice.precision = word(at, setting, Precision::WORDS, Precision::parse)?,
         "variant" => choice.variant = among(at, setting, VARIANTS)?,
         "gauge" => choice.gauge = among(at, setting, GAUGES)?,
         "root" => choice.root = among(at, setting, ROOTS)?,

@@ -1,9 +1,9 @@
 //! A chosen method over a whole trajectory.
 
 use super::choice::Choice;
-use super::dispatch::Job;
+use super::dispatch::{Computing, Job};
 use crate::Row;
-use crate::filter::{Fault, Gaussian, Over, StepError};
+use crate::filter::{Fault, Gaussian, StepError};
 use crate::model::{AnyObservation, AnySde, AnyTransition, Observation, Sde, Transition};
 use crate::run::{Goal, Outcome, Watch, run_until};
 
@@ -78,7 +78,7 @@ impl<M> Span<'_, M> {
 
 impl<M> Job<M> for Span<'_, M> {
     type Done = Outcome;
-    fn with<X: Over<M> + Send + Sync + 'static>(self, method: X) -> Outcome {
+    fn with<X: Computing<M>>(self, method: X) -> Outcome {
         let outcome = Outcome::new(self.prior.mean().len(), self.sensors.measures(), self.goal);
         let Span { model, sensors, rows, t0, prior, goal, at } = self;
         run_until(method, model, sensors, rows, t0, prior, &[], goal, at, Watch::default()).unwrap_or(outcome)

@@ -1,8 +1,8 @@
 //! A chosen method, for trajectories drawn jointly.
 
 use super::choice::Choice;
-use super::dispatch::Job;
-use crate::filter::{Fault, Gaussian, Over, StepError};
+use super::dispatch::{Computing, Job};
+use crate::filter::{Fault, Gaussian, StepError};
 use crate::model::{AnyObservation, AnySde, AnyTransition, Observation, Sde, Transition};
 use crate::run::{Draws, Failure, Samples, sample};
 use crate::{Estimates, Row};
@@ -80,7 +80,7 @@ impl<M> Through<'_, M> {
 
 impl<M> Job<M> for Through<'_, M> {
     type Done = Result<Samples, Failure>;
-    fn with<X: Over<M> + Send + Sync + 'static>(self, method: X) -> Self::Done {
+    fn with<X: Computing<M>>(self, method: X) -> Self::Done {
         let rows = self.rows.iter().copied();
         sample(method, self.model, self.sensors, rows, self.t0, self.prior, self.draws)
     }

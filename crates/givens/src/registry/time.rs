@@ -39,6 +39,10 @@ impl<M: Sde> TimeUpdate<M> for AnyTime {
         each!(self, time => time.check(model))
     }
 
+    fn resolves(&self, epsilon: f64) -> Result<(), Fault> {
+        each!(self, time => TimeUpdate::<M>::resolves(time, epsilon))
+    }
+
     fn states(&self, model: &M) -> usize {
         model.states()
     }

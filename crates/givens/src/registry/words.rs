@@ -58,6 +58,26 @@ words! {
 }
 
 words! {
+    /// What a method computes with.
+    Precision {
+        /// Numbers of sixteen digits.
+        F64 = "f64",
+        /// Numbers of seven digits.
+        F32 = "f32",
+    }
+}
+
+impl Precision {
+    /// The distance from one to the next larger number.
+    pub(super) const fn epsilon(self) -> f64 {
+        match self {
+            Precision::F64 => f64::EPSILON,
+            Precision::F32 => f32::EPSILON as f64,
+        }
+    }
+}
+
+words! {
     /// What a model's time is, and so that of the methods which serve it.
     Kind {
         /// A transition from one time to a later one.

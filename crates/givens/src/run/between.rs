@@ -1,17 +1,18 @@
 //! States at any time, beside the recursion over the rows: no other number changes by asking.
 
 use super::own::OwnFilter;
-use super::recorder::{Watch, push, put};
+use super::recorder::{Watch, push, put, told};
 use crate::filter::{Belief, Form, Over, StepError};
 use crate::model::Observation;
+use crate::scalar::Real;
 use crate::smoother::{History, Smoothed};
 use crate::{Estimates, Row};
 
 /// The states at `times`, in increasing order.
-pub(super) struct Between<'t> {
+pub(super) struct Between<'t, T> {
     times: &'t [f64],
     smoothing: bool,
-    sides: Vec<Side>,
+    sides: Vec<Side<T>>,
     /// Of every time that is a row's, the row.
     rows: Vec<Option<usize>>,
     /// One estimate for each time so far.
@@ -20,19 +21,19 @@ pub(super) struct Between<'t> {
 
 /// The way over one wanted time, from the row before it to the one behind: each has its own, so that no answer depends on
 /// what else is asked.
-struct Side {
-    history: History<f64, Vec<f64>>,
+struct Side<T> {
+    history: History<T, Vec<T>>,
     /// Which of the times.
     index: usize,
     /// The row at its end.
     row: usize,
     /// What its filter believes there, which is not to the bit what the filter of the rows does.
-    mean: Vec<f64>,
-    factor: Vec<f64>,
-    cov: Vec<f64>,
+    mean: Vec<T>,
+    factor: Vec<T>,
+    cov: Vec<T>,
 }
 
-impl<'t> Between<'t> {
+impl<'t, T: Real> Between<'t, T> {
     pub fn new(times: &'t [f64], out: Estimates) -> Self {
         Self { times, smoothing: out.is_smoothed(), sides: Vec::new(), rows: Vec::new(), out }
     }
@@ -41,7 +42,7 @@ impl<'t> Between<'t> {
     /// for a smoother goes on to that row and its update. Without a next row, to all that are left.
     pub fn ahead<X: Over<M>, M, H: Observation>(
         &mut self,
-        filter: &OwnFilter<X, M>,
+        filter: &OwnFilter<X, M, T>,
         sensors: &H,
         next: Option<(Row, &[bool])>,
         finished: &Estimates,
@@ -53,8 +54,8 @@ impl<'t> Between<'t> {
             let last = finished.time.last() == Some(&t);
             self.rows.push(if last { finished.len().checked_sub(1) } else { None });
             let mut filter = filter.clone();
-            let memory = if self.smoothing { History::<f64, Vec<f64>>::memory_len(n, 2) } else { 0 };
-            let mut history = History::new(n, X::Form::SQUARE_ROOT, vec![0.0; memory]);
+            let memory = if self.smoothing { History::<T, Vec<T>>::memory_len(n, 2) } else { 0 };
+            let mut history = History::new(n, X::Form::SQUARE_ROOT, vec![T::zero(); memory]);
             history.predict(&mut filter, t)?;
             self.write(&filter, t);
             if let (Some((row, present)), true, false) = (next, self.smoothing, last) {
@@ -76,14 +77,15 @@ impl<'t> Between<'t> {
     }
 
     /// One more estimate: a prediction.
-    fn write<X: Over<M>, M>(&mut self, filter: &OwnFilter<X, M>, t: f64) {
+    fn write<X: Over<M>, M>(&mut self, filter: &OwnFilter<X, M, T>, t: f64) {
         let d = self.out.measures();
         let out = &mut self.out;
-        push(filter, &mut out.predicted_mean, &mut out.predicted_cov);
-        push(filter, &mut out.mean, &mut out.cov);
-        out.factor.extend_from_slice(filter.factor());
+        let mut spare: Vec<f64> = told(filter.factor()).collect();
+        push(filter, &mut out.predicted_mean, &mut out.predicted_cov, &mut spare);
+        push(filter, &mut out.mean, &mut out.cov, &mut spare);
+        out.factor.extend_from_slice(&spare);
         if self.smoothing {
-            push(filter, &mut out.filtered_mean, &mut out.filtered_cov);
+            push(filter, &mut out.filtered_mean, &mut out.filtered_cov, &mut spare);
         }
         out.time.push(t);
         out.innovation.extend(core::iter::repeat_n(f64::NAN, d));
@@ -98,15 +100,15 @@ impl<'t> Between<'t> {
         &mut self,
         row: usize,
         time: f64,
-        smoothed: &Smoothed<f64>,
+        smoothed: &Smoothed<T>,
         filtered: (&[f64], &[f64]),
     ) -> Result<(), StepError> {
         while let Some(mut side) = self.sides.pop_if(|side| side.row >= row) {
             if side.row == row {
                 let (out, index) = (&mut self.out, side.index);
-                let put = |age: usize, smoothed: &Smoothed<f64>| {
+                let put = |age: usize, smoothed: &Smoothed<T>| {
                     if age == 1 {
-                        put::<F>(out, index, &smoothed.belief);
+                        put::<F, T>(out, index, &smoothed.belief);
                     }
                 };
                 if !F::SQUARE_ROOT || alike((&side.mean, &side.cov), filtered) {
@@ -143,14 +145,16 @@ impl<'t> Between<'t> {
 }
 
 /// Whether two beliefs are the same but for rounding: what is nearly known is then spared a division by its root.
-fn alike((mean, cov): (&[f64], &[f64]), (other, others): (&[f64], &[f64])) -> bool {
+fn alike<T: Real>((mean, cov): (&[T], &[T]), (other, others): (&[f64], &[f64])) -> bool {
     let n = mean.len();
+    let (mean, cov): (Vec<f64>, Vec<f64>) = (told(mean).collect(), told(cov).collect());
+    let alike = ALIKE * T::EPSILON;
     let deviation = |i: usize| cov[i * n + i].sqrt();
-    let near = |i: usize| (mean[i] - other[i]).abs() <= ALIKE * (deviation(i) + mean[i].abs());
+    let near = |i: usize| (mean[i] - other[i]).abs() <= alike * (deviation(i) + mean[i].abs());
     let close = |i: usize, j: usize| {
-        (cov[i * n + j] - others[i * n + j]).abs() <= ALIKE * deviation(i) * deviation(j)
+        (cov[i * n + j] - others[i * n + j]).abs() <= alike * deviation(i) * deviation(j)
     };
     (0..n).all(near) && (0..n * n).all(|k| close(k / n, k % n))
 }
 
-const ALIKE: f64 = 1e-13;
+const ALIKE: f64 = 450.0;

@@ -7,14 +7,14 @@ mod recorder;
 mod sample;
 
 pub use goal::{Goal, Outcome};
-pub(crate) use own::{OwnFilter, Start, scatter, start_own};
-pub(crate) use recorder::Watch;
+pub(crate) use own::{OwnFilter, Start, of_kind, scatter, start_own};
+pub(crate) use recorder::{Watch, told, write_cov};
 pub use sample::{Draws, Samples, sample};
 
-use crate::filter::{Gaussian, Over, StepError};
+use crate::filter::{Gaussian, StepError};
 use crate::model::Observation;
 use crate::scalar::Shown;
-use crate::{Data, Estimates, Row};
+use crate::{Computes, Data, Estimates, Row};
 use between::Between;
 use recorder::Recorder;
 
@@ -47,7 +47,7 @@ impl core::error::Error for Failure {
 ///
 /// # Errors
 /// The first step that fails, with all rows before it.
-pub fn filter<X: Over<M>, M, H: Observation>(
+pub fn filter<X: Computes<M>, M, H: Observation>(
     method: &X,
     model: &M,
     sensors: &H,
@@ -61,7 +61,7 @@ pub fn filter<X: Over<M>, M, H: Observation>(
 ///
 /// # Errors
 /// The first step that fails, with the rows before it, smoothed among themselves.
-pub fn smooth<X: Over<M>, M, H: Observation>(
+pub fn smooth<X: Computes<M>, M, H: Observation>(
     method: &X,
     model: &M,
     sensors: &H,
@@ -72,7 +72,7 @@ pub fn smooth<X: Over<M>, M, H: Observation>(
 }
 
 /// Runs a method over rows in order of time, for any goal; `prior` holds at time `t0`.
-pub fn run<'a, X: Over<M>, M, H: Observation>(
+pub fn run<'a, X: Computes<M>, M, H: Observation>(
     method: X,
     model: &M,
     sensors: &H,
@@ -104,7 +104,7 @@ pub fn run<'a, X: Over<M>, M, H: Observation>(
 /// assert_eq!(outcome.at.mean(1), outcome.estimates.mean(0));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn run_at<'a, X: Over<M>, M, H: Observation>(
+pub fn run_at<'a, X: Computes<M>, M, H: Observation>(
     method: X,
     model: &M,
     sensors: &H,
@@ -120,7 +120,7 @@ pub fn run_at<'a, X: Over<M>, M, H: Observation>(
 }
 
 /// [`run_at`] with parameters in place of the model's, if there are any, that may be cancelled: then there is no outcome.
-pub(crate) fn run_until<X: Over<M>, M, H: Observation>(
+pub(crate) fn run_until<X: Computes<M>, M, H: Observation>(
     method: X,
     model: &M,
     sensors: &H,
@@ -135,9 +135,11 @@ pub(crate) fn run_until<X: Over<M>, M, H: Observation>(
     let mut outcome = Outcome::new(prior.mean().len(), sensors.measures(), goal);
     let wanted = if matches!(goal, Goal::Filter | Goal::Interval) { at } else { &[] };
     let out = &outcome.estimates;
-    let between = Between::new(wanted, Estimates::new(out.states(), out.measures(), out.is_smoothed()));
+    let between =
+        Between::<X::Number>::new(wanted, Estimates::new(out.states(), out.measures(), out.is_smoothed()));
     let count = if goal == Goal::Filter { 0 } else { rows.len() };
-    match Recorder::start(method, model, sensors, t0, prior, parameters, goal, count, between, watch) {
+    match Recorder::start(method.method(), model, sensors, t0, prior, parameters, goal, count, between, watch)
+    {
         Ok(mut recorder) => {
             recorder.forward(rows, &mut outcome);
             outcome.at = recorder.finish(&mut outcome);

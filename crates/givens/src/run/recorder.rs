@@ -5,25 +5,28 @@ use super::goal::{Goal, Outcome};
 use super::own::{OwnFilter, Start, scatter, start_own};
 use crate::filter::{Belief, Form, Gaussian, Method, Over, Prior, StepError};
 use crate::model::Observation;
+use crate::scalar::Real;
 use crate::smoother::{FixedPoint, History, Smoothed};
 use crate::{Estimates, Row};
 use core::ops::ControlFlow;
 use core::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 /// A filter, what it has recorded, and what it is to find out.
-pub(super) struct Recorder<'t, 'm, X: Method, M, H> {
-    pub(super) filter: OwnFilter<'m, X, M>,
+pub(super) struct Recorder<'t, 'm, X: Method, M, H, T> {
+    pub(super) filter: OwnFilter<'m, X, M, T>,
     sensors: &'m H,
     goal: Goal,
-    pub(super) history: History<f64, Vec<f64>>,
-    point: Option<FixedPoint<f64, Vec<f64>>>,
+    pub(super) history: History<T, Vec<T>>,
+    point: Option<FixedPoint<T, Vec<T>>>,
     present: Vec<bool>,
     /// The belief after the last finished row: where the way back begins if the next one fails.
     last: (Vec<f64>, Vec<f64>, Vec<f64>),
+    /// A root of a covariance on its way to the estimates.
+    spare: Vec<f64>,
     /// Whether the row at work has been predicted, and so recorded.
     predicted: bool,
     /// States at other times.
-    between: Between<'t>,
+    between: Between<'t, T>,
     /// Once it says stop, no further row is begun, on neither way.
     watch: Watch<'t>,
 }
@@ -49,7 +52,7 @@ impl Watch<'_> {
     }
 }
 
-impl<'t, 'm, X: Over<M>, M, H: Observation> Recorder<'t, 'm, X, M, H> {
+impl<'t, 'm, X: Over<M>, M, H: Observation, T: Real> Recorder<'t, 'm, X, M, H, T> {
     /// A filter with memory of its own for this model, these sensors and `rows` rows.
     pub fn start(
         method: X,
@@ -60,7 +63,7 @@ impl<'t, 'm, X: Over<M>, M, H: Observation> Recorder<'t, 'm, X, M, H> {
         parameters: &[f64],
         goal: Goal,
         rows: usize,
-        between: Between<'t>,
+        between: Between<'t, T>,
         watch: Watch<'t>,
     ) -> Result<Self, StepError> {
         let mut filter = start_own(method, model, sensors, Start::Prior(t0, prior), goal != Goal::Filter)?;
@@ -74,7 +77,7 @@ impl<'t, 'm, X: Over<M>, M, H: Observation> Recorder<'t, 'm, X, M, H> {
             Goal::Lag(lag) => lag.min(rows),
         };
         let square_root = X::Form::SQUARE_ROOT;
-        let memory = vec![0.0; History::<f64, Vec<f64>>::memory_len(n, capacity)];
+        let memory = vec![T::zero(); History::<T, Vec<T>>::memory_len(n, capacity)];
         let mut recorder = Self {
             filter,
             sensors,
@@ -83,6 +86,7 @@ impl<'t, 'm, X: Over<M>, M, H: Observation> Recorder<'t, 'm, X, M, H> {
             point: None,
             present: vec![false; sensors.measures()],
             last: (prior.mean().to_vec(), prior.factor().to_vec(), prior.cov().to_vec()),
+            spare: prior.factor().to_vec(),
             predicted: false,
             between,
             watch,
@@ -94,7 +98,7 @@ impl<'t, 'm, X: Over<M>, M, H: Observation> Recorder<'t, 'm, X, M, H> {
     /// Begins the fixed point if its time has come.
     fn begin_point(&mut self, t: f64) -> Result<(), StepError> {
         if self.point.is_none() && self.goal == Goal::Point(t) {
-            let memory = vec![0.0; FixedPoint::<f64, Vec<f64>>::memory_len(self.filter.mean().len())];
+            let memory = vec![T::zero(); FixedPoint::<T, Vec<T>>::memory_len(self.filter.mean().len())];
             self.point = Some(FixedPoint::begin(&mut self.filter, memory)?);
         }
         Ok(())
@@ -107,10 +111,10 @@ impl<'t, 'm, X: Over<M>, M, H: Observation> Recorder<'t, 'm, X, M, H> {
         for (k, &row) in rows.iter().take_while(|_| !watch.stopped()).enumerate() {
             if let Err(error) = self.row(before, row, &mut outcome.estimates) {
                 outcome.failure = Some((k, error));
-                outcome.failed_at = self.filter.mean().to_vec();
+                outcome.failed_at = told(self.filter.mean()).collect();
                 break;
             }
-            outcome.log_likelihood += self.filter.innovation().log_likelihood;
+            outcome.log_likelihood += self.filter.innovation().log_likelihood.first();
             watch.count(1);
             before = Some(row);
         }
@@ -136,7 +140,7 @@ impl<'t, 'm, X: Over<M>, M, H: Observation> Recorder<'t, 'm, X, M, H> {
             None => self.history.predict(&mut self.filter, row.time)?,
         }
         self.predicted = true;
-        push(&self.filter, &mut out.predicted_mean, &mut out.predicted_cov);
+        push(&self.filter, &mut out.predicted_mean, &mut out.predicted_cov, &mut self.spare);
         self.filter.set_controls(row.u)?;
         self.filter.update_present(self.sensors, row.z, &self.present)?;
         let waiting = matches!(self.goal, Goal::Point(_)) && self.point.is_none();
@@ -154,7 +158,7 @@ impl<'t, 'm, X: Over<M>, M, H: Observation> Recorder<'t, 'm, X, M, H> {
             let filter = &self.filter;
             self.history.smooth(filter, lag.min(at), |age, smoothed| {
                 if age == lag {
-                    put::<X::Form>(out, at - age, &smoothed.belief);
+                    put::<X::Form, T>(out, at - age, &smoothed.belief);
                 }
             })?;
         }
@@ -164,23 +168,26 @@ impl<'t, 'm, X: Over<M>, M, H: Observation> Recorder<'t, 'm, X, M, H> {
 
     /// Notes the belief that the row has ended with.
     fn keep(&mut self) {
-        self.last.0.copy_from_slice(self.filter.mean());
-        self.last.1.copy_from_slice(self.filter.factor());
-        self.filter.write_cov(&mut self.last.2);
+        let (mean, factor, cov) = &mut self.last;
+        mean.clear();
+        mean.extend(told(self.filter.mean()));
+        factor.clear();
+        factor.extend(told(self.filter.factor()));
+        write_cov(&self.filter, factor, cov);
     }
 
-    fn write(&self, time: f64, out: &mut Estimates) {
+    fn write(&mut self, time: f64, out: &mut Estimates) {
         out.time.push(time);
         if let Some(point) = &self.point {
-            out.mean.extend_from_slice(point.mean());
-            out.cov.extend_from_slice(point.cov());
-            out.factor.extend_from_slice(point.factor());
+            out.mean.extend(told(point.mean()));
+            out.cov.extend(told(point.cov()));
+            out.factor.extend(told(point.factor()));
         } else {
-            push(&self.filter, &mut out.mean, &mut out.cov);
-            out.factor.extend_from_slice(self.filter.factor());
+            push(&self.filter, &mut out.mean, &mut out.cov, &mut self.spare);
+            out.factor.extend(told(self.filter.factor()));
         }
         if out.smoothed {
-            push(&self.filter, &mut out.filtered_mean, &mut out.filtered_cov);
+            push(&self.filter, &mut out.filtered_mean, &mut out.filtered_cov, &mut self.spare);
         }
         let d = self.present.len();
         let innovation = self.filter.innovation();
@@ -190,8 +197,8 @@ impl<'t, 'm, X: Over<M>, M, H: Observation> Recorder<'t, 'm, X, M, H> {
         scatter(&innovation, &self.present, &mut out.innovation[nu_at..], &mut out.innovation_cov[cov_at..]);
         let dof = innovation.nu.len();
         out.nis_dof.push(dof);
-        out.nis.push(if dof == 0 { f64::NAN } else { innovation.nis });
-        out.log_likelihood.push(innovation.log_likelihood);
+        out.nis.push(if dof == 0 { f64::NAN } else { innovation.nis.first() });
+        out.log_likelihood.push(innovation.log_likelihood.first());
     }
 
     /// Goes back over the finished rows.
@@ -204,9 +211,9 @@ impl<'t, 'm, X: Over<M>, M, H: Observation> Recorder<'t, 'm, X, M, H> {
         };
         let time = out.time[last];
         let (mut wrong, between, watch) = (None, &mut self.between, self.watch);
-        let put = |age: usize, smoothed: &Smoothed<f64>| {
+        let put = |age: usize, smoothed: &Smoothed<T>| {
             let row = last - age;
-            put::<X::Form>(out, row, &smoothed.belief);
+            put::<X::Form, T>(out, row, &smoothed.belief);
             let filtered = (out.filtered_mean(row), out.filtered_cov(row));
             wrong = wrong.or(between.back::<X::Form>(row, out.time[row], smoothed, filtered).err());
             if watch.stopped() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
@@ -235,23 +242,50 @@ impl<'t, 'm, X: Over<M>, M, H: Observation> Recorder<'t, 'm, X, M, H> {
     }
 }
 
-/// Appends a filter's mean and covariance.
-pub(super) fn push<X: Over<M>, M>(filter: &OwnFilter<X, M>, mean: &mut Vec<f64>, cov: &mut Vec<f64>) {
+/// The numbers of a filter, as estimates have them.
+pub(crate) fn told<T: Real>(numbers: &[T]) -> impl Iterator<Item = f64> {
+    numbers.iter().map(|x| x.first())
+}
+
+/// Appends a filter's mean and covariance; `spare` has the length of the covariance.
+pub(super) fn push<X: Over<M>, M, T: Real>(
+    filter: &OwnFilter<X, M, T>,
+    mean: &mut Vec<f64>,
+    cov: &mut Vec<f64>,
+    spare: &mut [f64],
+) {
     let (n, at) = (filter.mean().len(), cov.len());
-    mean.extend_from_slice(filter.mean());
+    mean.extend(told(filter.mean()));
     cov.resize(at + n * n, 0.0);
-    filter.write_cov(&mut cov[at..]);
+    spare.iter_mut().zip(told(filter.factor())).for_each(|(to, x)| *to = x);
+    write_cov(filter, spare, &mut cov[at..]);
+}
+
+/// Writes a filter's covariance, n × n, of which `factor` is the root.
+pub(crate) fn write_cov<X: Over<M>, M, T: Real>(
+    filter: &OwnFilter<X, M, T>,
+    factor: &[f64],
+    cov: &mut [f64],
+) {
+    let n = filter.mean().len();
+    if X::Form::SQUARE_ROOT {
+        crate::kernels::square(cov, n, factor, n, n);
+    } else {
+        cov.iter_mut().zip(told(filter.carried().cov)).for_each(|(to, x)| *to = x);
+    }
 }
 
 /// Replaces the estimate of a row by a smoothed one.
-pub(super) fn put<F: Form>(out: &mut Estimates, row: usize, belief: &Belief<f64>) {
+pub(super) fn put<F: Form, T: Real>(out: &mut Estimates, row: usize, belief: &Belief<T>) {
     let n = belief.mean.len();
-    out.mean[row * n..(row + 1) * n].copy_from_slice(belief.mean);
-    out.factor[row * n * n..(row + 1) * n * n].copy_from_slice(belief.factor);
-    let cov = &mut out.cov[row * n * n..(row + 1) * n * n];
+    let write = |to: &mut [f64], from: &[T]| to.iter_mut().zip(told(from)).for_each(|(to, x)| *to = x);
+    let square = row * n * n..(row + 1) * n * n;
+    write(&mut out.mean[row * n..(row + 1) * n], belief.mean);
+    write(&mut out.factor[square.clone()], belief.factor);
+    let cov = &mut out.cov[square.clone()];
     if F::SQUARE_ROOT {
-        crate::kernels::square(cov, n, belief.factor, n, n);
+        crate::kernels::square(cov, n, &out.factor[square], n, n);
     } else {
-        cov.copy_from_slice(belief.cov);
+        write(cov, belief.cov);
     }
 }

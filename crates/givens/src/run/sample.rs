@@ -2,11 +2,12 @@
 
 use super::between::Between;
 use super::goal::{Goal, Outcome};
-use super::recorder::{Recorder, Watch};
+use super::recorder::{Recorder, Watch, told};
 use crate::filter::{Gaussian, Over, StepError};
 use crate::model::Observation;
+use crate::scalar::Real;
 use crate::simulate::Stream;
-use crate::{Estimates, Failure, Row};
+use crate::{Computes, Estimates, Failure, Row};
 
 /// How many trajectories to draw, and by which random numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -90,7 +91,7 @@ impl Samples {
 /// # Errors
 /// The first step that fails, with the filtered rows before it. In covariance form that may be one of the way back: a
 /// covariance of a state given the next one that is not positive semidefinite.
-pub fn sample<'a, X: Over<M>, M, H: Observation>(
+pub fn sample<'a, X: Computes<M>, M, H: Observation>(
     method: X,
     model: &M,
     sensors: &H,
@@ -102,9 +103,9 @@ pub fn sample<'a, X: Over<M>, M, H: Observation>(
     let rows: Vec<Row> = rows.collect();
     let (n, d, count) = (prior.mean().len(), sensors.measures(), rows.len());
     let mut outcome = Outcome::new(n, d, Goal::Interval);
-    let between = Between::new(&[], Estimates::new(n, d, true));
+    let between = Between::<X::Number>::new(&[], Estimates::new(n, d, true));
     let started = Recorder::start(
-        method,
+        method.method(),
         model,
         sensors,
         t0,
@@ -130,7 +131,7 @@ pub fn sample<'a, X: Over<M>, M, H: Observation>(
     })
 }
 
-impl<X: Over<M>, M, H: Observation> Recorder<'_, '_, X, M, H> {
+impl<X: Over<M>, M, H: Observation, T: Real> Recorder<'_, '_, X, M, H, T> {
     /// Draws over all rows, which none has failed.
     fn draw(&mut self, est: &Estimates, draws: Draws) -> Result<Samples, (usize, StepError)> {
         let (n, rows) = (est.states(), est.len());
@@ -140,13 +141,13 @@ impl<X: Over<M>, M, H: Observation> Recorder<'_, '_, X, M, H> {
         let mut streams: Vec<Stream> =
             (0..draws.count).map(|run| Stream::beyond(draws.seed, draws.track, run)).collect();
         let mut x = vec![0.0; streams.len() * rows * n];
-        let mut at_work = vec![0.0; streams.len() * n];
+        let mut at_work = vec![T::zero(); streams.len() * n];
         let (filter, history) = (&self.filter, &mut self.history);
-        let put = |age: usize, draw: usize, state: &[f64]| {
+        let put = |age: usize, draw: usize, state: &[T]| {
             let row = draw * rows + last - age;
-            x[row * n..(row + 1) * n].copy_from_slice(state);
+            x[row * n..(row + 1) * n].iter_mut().zip(told(state)).for_each(|(to, x)| *to = x);
         };
-        let done = history.sample(filter, last, &mut at_work, |draw| streams[draw].normal(), put);
+        let done = history.sample(filter, last, &mut at_work, |draw| T::of(streams[draw].normal()), put);
         done.map_err(|error| {
             let row = error.step.saturating_sub(1).min(last);
             (row, StepError { time: est.time[row], ..error })

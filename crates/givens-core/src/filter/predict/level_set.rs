@@ -87,6 +87,10 @@ impl<M: Sde> TimeUpdate<M> for LevelSet {
         Continuous(model).additive()
     }
 
+    fn resolves(&self, epsilon: f64) -> Result<(), Fault> {
+        self.integrator.resolves(epsilon).map_err(Fault::Option)
+    }
+
     fn states(&self, model: &M) -> usize {
         model.states()
     }

@@ -84,6 +84,15 @@ pub trait TimeUpdate<M>: Copy {
     /// An option out of its range, a model with a property that the method excludes.
     fn check(&self, model: &M) -> Result<(), Fault>;
 
+    /// Whether numbers of this relative spacing can keep what the options ask for.
+    ///
+    /// # Errors
+    /// The option that they cannot keep.
+    fn resolves(&self, epsilon: f64) -> Result<(), Fault> {
+        let _ = epsilon;
+        Ok(())
+    }
+
     /// Length n of the model's state.
     fn states(&self, model: &M) -> usize;
 

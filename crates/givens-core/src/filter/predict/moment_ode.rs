@@ -61,6 +61,10 @@ impl<M: Sde> TimeUpdate<M> for MomentOde {
         check_integrator(&self.integrator)
     }
 
+    fn resolves(&self, epsilon: f64) -> Result<(), Fault> {
+        self.integrator.resolves(epsilon).map_err(Fault::Option)
+    }
+
     fn states(&self, model: &M) -> usize {
         model.states()
     }

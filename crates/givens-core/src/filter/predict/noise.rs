@@ -3,9 +3,10 @@
 
 use super::settle::{Moved, settle, settle_scratch};
 use crate::filter::backward::Backward;
-use crate::filter::error::{Fault, Quantity};
+use crate::filter::error::Fault;
 use crate::filter::form::{Belief, Form};
 use crate::filter::memory::{larger, put_columns, take, whole_packs};
+use crate::filter::quantity::Quantity;
 use crate::kernels::wild_row;
 use crate::model::{At, Map, Sde, Varies};
 use crate::rule::{Rule, Shape, Spread, spread_scratch};

@@ -3,11 +3,12 @@
 use super::settle::{Moved, settle, settle_scratch};
 use super::{Given, Plan, Stopped, TimeUpdate};
 use crate::filter::backward::Backward;
-use crate::filter::error::{Fault, Matrix, Quantity};
+use crate::filter::error::{Fault, Matrix};
 use crate::filter::form::{Belief, Form};
 use crate::filter::lanes::lanes;
 use crate::filter::layout::Layout;
 use crate::filter::memory::{larger, put_columns, take, whole_packs};
+use crate::filter::quantity::Quantity;
 use crate::filter::sizes::{Sizes, countable};
 use crate::kernels::{cholesky_again, kept_root, wild_row};
 use crate::model::{Moving, Noise, Transition, scratch_for};

@@ -2,8 +2,9 @@
 
 use super::image::{Image, Imaged};
 use super::noise::diffusion;
-use crate::filter::error::{Fault, Quantity};
+use crate::filter::error::Fault;
 use crate::filter::memory::take;
+use crate::filter::quantity::Quantity;
 use crate::filter::sizes::Sizes;
 use crate::kernels::wild_row;
 use crate::model::{

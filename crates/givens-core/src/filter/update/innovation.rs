@@ -1,6 +1,7 @@
 //! The innovation: what the measurement said beyond the prediction, and how likely it was.
 
-use crate::filter::error::{Fault, Quantity};
+use crate::filter::error::Fault;
+use crate::filter::quantity::Quantity;
 use crate::kernels::{dot, solve_lower};
 use crate::scalar::{Mask, Real};
 

@@ -14,8 +14,9 @@ pub(crate) use innovation::InnovationMut;
 pub use learnt::Learnt;
 pub(crate) use posterior::{Posterior, Rows};
 
-use super::error::{Fault, Quantity};
+use super::error::Fault;
 use super::form::{Belief, Form};
+use super::quantity::Quantity;
 use crate::filter::memory::larger;
 use crate::kernels::wild_row;
 use crate::model::{At, Observation};

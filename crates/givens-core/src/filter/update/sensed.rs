@@ -1,10 +1,11 @@
 //! The predicted measurement: the rule's spread of h and the noise, of the components that are there.
 
 use super::{InnovationMut, Measurement, Present};
-use crate::filter::error::{Fault, Matrix, Quantity};
+use crate::filter::error::{Fault, Matrix};
 use crate::filter::form::Belief;
 use crate::filter::lanes::lanes;
 use crate::filter::memory::{put_columns, take};
+use crate::filter::quantity::Quantity;
 use crate::kernels::{plus_magnitudes, tria};
 use crate::model::{At, Observation, Sensed as SensedMap};
 use crate::rule::{Rule, Shape, Spread};

@@ -1,14 +1,14 @@
 //! The functions of a model, asked behind a pointer: where it does not serve such numbers, it answers NaN.
 
-use super::{AtFloats, Call, Question};
+use super::{AtWords, Call, Question};
 use crate::kernels::Health;
 use crate::model::{At, Linear};
-use crate::scalar::{Grain, Real, floats, floats_mut};
+use crate::scalar::{Grain, Real, words, words_mut};
 
 /// At one point.
 #[inline(always)]
 pub fn at_one<T: Real>(at: &At<T>, x: &[T], out: &mut [T], ask: impl FnOnce(Question)) {
-    if !asked(at, Call::One { x: floats(x), out: floats_mut(out) }, ask) {
+    if !asked(at, Call::One { x: words(x), out: words_mut(out) }, ask) {
         unknown(out);
     }
 }
@@ -23,7 +23,7 @@ pub fn at_points<T: Real>(
     scratch: &mut [T],
     ask: impl FnOnce(Question),
 ) {
-    let call = Call::Points { points, x: floats(x), out: floats_mut(out), scratch: floats_mut(scratch) };
+    let call = Call::Points { points, x: words(x), out: words_mut(out), scratch: words_mut(scratch) };
     if !asked(at, call, ask) {
         unknown(out);
     }
@@ -41,12 +41,12 @@ pub fn linear<T: Real>(
 ) {
     let Linear { value, image, stride } = out;
     let call = Call::Linear {
-        x: floats(x),
-        s: floats(s),
-        value: floats_mut(value),
-        image: floats_mut(image),
+        x: words(x),
+        s: words(s),
+        value: words_mut(value),
+        image: words_mut(image),
         stride,
-        scratch: floats_mut(scratch),
+        scratch: words_mut(scratch),
     };
     if !asked(at, call, ask) {
         unknown(value);
@@ -56,7 +56,7 @@ pub fn linear<T: Real>(
 /// Its noise, at a state if it has one.
 #[inline(always)]
 pub fn noise<T: Real>(at: &At<T>, x: &[T], out: &mut [T], ask: impl FnOnce(Question)) {
-    if !asked(at, Call::Noise { x: floats(x), out: floats_mut(out) }, ask) {
+    if !asked(at, Call::Noise { x: words(x), out: words_mut(out) }, ask) {
         unknown(out);
     }
 }
@@ -65,20 +65,20 @@ pub fn noise<T: Real>(at: &At<T>, x: &[T], out: &mut [T], ask: impl FnOnce(Quest
 #[inline(always)]
 pub fn noise_root<T: Real>(at: &At<T>, root: &mut [T], ask: impl FnOnce(Question)) -> Health<T> {
     let (mut sick, mut pivot) = ([T::zero()], [T::zero()]);
-    let (told, which) = (floats_mut(&mut sick), floats_mut(&mut pivot));
-    let call = Call::NoiseRoot { root: floats_mut(root), sick: told, pivot: which };
+    let (told, which) = (words_mut(&mut sick), words_mut(&mut pivot));
+    let call = Call::NoiseRoot { root: words_mut(root), sick: told, pivot: which };
     if !asked(at, call, ask) {
         unknown(root);
     }
     Health { sick: !sick[0].same(T::zero()), pivot: pivot[0] }
 }
 
-/// Asks with the numbers of `at` as floats. False if a model behind a pointer does not serve such numbers.
+/// Asks with the numbers of `at` as words. False if a model behind a pointer does not serve such numbers.
 #[inline(always)]
 pub fn asked<T: Real>(at: &At<T>, call: Call, ask: impl FnOnce(Question)) -> bool {
     let Some(grain) = Grain::of::<T>() else { return false };
     let (t, dt) = ([at.t], [at.dt]);
-    let at = AtFloats { t: floats(&t), dt: floats(&dt), u: floats(at.u), p: floats(at.p) };
+    let at = AtWords { t: words(&t), dt: words(&dt), u: words(at.u), p: words(at.p) };
     ask(Question { grain, at, call });
     true
 }

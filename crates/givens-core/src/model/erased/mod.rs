@@ -1,8 +1,8 @@
 //! Models behind a pointer: filters over them are compiled once, whatever the models.
 //!
 //! A function of a model is generic over its numbers, and a pointer cannot be asked for such; so all numbers cross as the
-//! `f64` that they are made of, and their [`Grain`] tells what these are. A model is compiled for every grain, and for packs
-//! within the instructions that they need.
+//! words that they are made of, and their [`Grain`] tells what these are. A model is compiled for every grain, in `f64` and in
+//! `f32`, and for packs within the instructions that they need.
 
 #[macro_use]
 mod pointer;
@@ -17,45 +17,45 @@ pub use transition::{AnyTransition, TransitionCalls};
 
 use super::At;
 use crate::kernels::Health;
-use crate::scalar::{Dual2, Grain, Job, Pack, Real, numbers, numbers_mut};
+use crate::scalar::{Dual2, Element, Grain, Job, Pack, Real, Word, numbers, numbers_mut};
 
-/// Time, length of the step, controls and parameters, as floats.
+/// Time, length of the step, controls and parameters, as words.
 #[derive(Clone, Copy, Debug)]
-struct AtFloats<'a> {
-    t: &'a [f64],
-    dt: &'a [f64],
-    u: &'a [f64],
-    p: &'a [f64],
+struct AtWords<'a> {
+    t: &'a [Word],
+    dt: &'a [Word],
+    u: &'a [Word],
+    p: &'a [Word],
 }
 
-/// What is asked of a model, and where the answer is written; all numbers as floats.
+/// What is asked of a model, and where the answer is written; all numbers as words.
 #[derive(Debug)]
 enum Call<'a> {
     /// Its function at one point.
-    One { x: &'a [f64], out: &'a mut [f64] },
+    One { x: &'a [Word], out: &'a mut [Word] },
     /// Its function at many.
-    Points { points: usize, x: &'a [f64], out: &'a mut [f64], scratch: &'a mut [f64] },
+    Points { points: usize, x: &'a [Word], out: &'a mut [Word], scratch: &'a mut [Word] },
     /// Its first-order part.
     Linear {
-        x: &'a [f64],
-        s: &'a [f64],
-        value: &'a mut [f64],
-        image: &'a mut [f64],
+        x: &'a [Word],
+        s: &'a [Word],
+        value: &'a mut [Word],
+        image: &'a mut [Word],
         stride: usize,
-        scratch: &'a mut [f64],
+        scratch: &'a mut [Word],
     },
     /// Its noise, at a state if it has one.
-    Noise { x: &'a [f64], out: &'a mut [f64] },
+    Noise { x: &'a [Word], out: &'a mut [Word] },
     /// A root of that, the sick lanes (one for those that are), and their pivots.
-    NoiseRoot { root: &'a mut [f64], sick: &'a mut [f64], pivot: &'a mut [f64] },
+    NoiseRoot { root: &'a mut [Word], sick: &'a mut [Word], pivot: &'a mut [Word] },
     /// Its Itô derivatives.
     Expansion {
         points: usize,
-        x: &'a [f64],
-        f: &'a mut [f64],
-        l0: &'a mut [f64],
-        lf: &'a mut [f64],
-        scratch: &'a mut [f64],
+        x: &'a [Word],
+        f: &'a mut [Word],
+        l0: &'a mut [Word],
+        lf: &'a mut [Word],
+        scratch: &'a mut [Word],
     },
 }
 
@@ -63,7 +63,7 @@ enum Call<'a> {
 #[derive(Debug)]
 pub struct Question<'a> {
     grain: Grain,
-    at: AtFloats<'a>,
+    at: AtWords<'a>,
     call: Call<'a>,
 }
 
@@ -76,19 +76,28 @@ trait Answers {
 #[inline(always)]
 fn answer<M: Answers>(model: &M, question: Question) {
     let Question { grain, ref at, call } = question;
+    if grain.single {
+        answer_in::<f32, M>(model, grain, at, call);
+    } else {
+        answer_in::<f64, M>(model, grain, at, call);
+    }
+}
+
+#[inline(always)]
+fn answer_in<E: Element, M: Answers>(model: &M, grain: Grain, at: &AtWords, call: Call) {
     match grain {
-        Grain { set: None, depth: 0 } => as_numbers::<f64, M>(model, at, call),
-        Grain { set: None, depth: 1 } => as_numbers::<Dual2<f64>, M>(model, at, call),
-        Grain { set: None, .. } => as_numbers::<Dual2<Dual2<f64>>, M>(model, at, call),
-        Grain { set: Some(set), depth } => {
+        Grain { set: None, depth: 0, .. } => as_numbers::<E, M>(model, at, call),
+        Grain { set: None, depth: 1, .. } => as_numbers::<Dual2<E>, M>(model, at, call),
+        Grain { set: None, .. } => as_numbers::<Dual2<Dual2<E>>, M>(model, at, call),
+        Grain { set: Some(set), depth, .. } => {
             // whoever has such numbers has been asked by a machine that has the set
-            let _ = set.run_in_registers(Inside { model, at, call, depth });
+            let _ = set.run_in_registers::<E, _>(Inside { model, at, call, depth });
         }
     }
 }
 
 #[inline(always)]
-fn as_numbers<T: Real, M: Answers>(model: &M, at: &AtFloats, call: Call) {
+fn as_numbers<T: Real, M: Answers>(model: &M, at: &AtWords, call: Call) {
     let at = At::<T> { t: one(at.t), dt: one(at.dt), u: numbers(at.u), p: numbers(at.p) };
     model.answer(&at, call);
 }
@@ -96,16 +105,16 @@ fn as_numbers<T: Real, M: Answers>(model: &M, at: &AtFloats, call: Call) {
 /// A call within the instructions of a pack.
 struct Inside<'s, M> {
     model: &'s M,
-    at: &'s AtFloats<'s>,
+    at: &'s AtWords<'s>,
     call: Call<'s>,
     depth: usize,
 }
 
-impl<M: Answers> Job<f64> for Inside<'_, M> {
+impl<E: Element, M: Answers> Job<E> for Inside<'_, M> {
     type Output = ();
     const AVX512: bool = false;
     #[inline(always)]
-    fn run<P: Pack<Element = f64>>(self) {
+    fn run<P: Pack<Element = E>>(self) {
         match self.depth {
             0 => as_numbers::<P, M>(self.model, self.at, self.call),
             _ => as_numbers::<Dual2<P>, M>(self.model, self.at, self.call),
@@ -114,15 +123,15 @@ impl<M: Answers> Job<f64> for Inside<'_, M> {
 }
 
 #[inline(always)]
-fn answer_root<T: Real>(health: Health<T>, sick: &mut [f64], pivot: &mut [f64]) {
+fn answer_root<T: Real>(health: Health<T>, sick: &mut [Word], pivot: &mut [Word]) {
     let told = T::select(health.sick, T::one(), T::zero());
     numbers_mut(sick).copy_from_slice(&[told]);
     numbers_mut(pivot).copy_from_slice(&[health.pivot]);
 }
 
-/// One number, where floats make it.
+/// One number, where words make it.
 #[inline(always)]
-fn one<T: Real>(of: &[f64]) -> T {
+fn one<T: Real>(of: &[Word]) -> T {
     match numbers::<T>(of) {
         [number, ..] => *number,
         [] => T::of(f64::NAN),

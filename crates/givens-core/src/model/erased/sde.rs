@@ -2,7 +2,7 @@
 
 use super::{Answers, Call, Question, answer, asking};
 use crate::model::{At, Linear, Sde, Varies};
-use crate::scalar::{Real, floats, floats_mut, numbers, numbers_mut};
+use crate::scalar::{Real, numbers, numbers_mut, words, words_mut};
 
 struct Asked<'a, M>(&'a M);
 
@@ -77,11 +77,11 @@ behind_a_pointer! {
         ) {
             let call = Call::Expansion {
                 points,
-                x: floats(x),
-                f: floats_mut(f),
-                l0: floats_mut(l0),
-                lf: floats_mut(lf),
-                scratch: floats_mut(scratch),
+                x: words(x),
+                f: words_mut(f),
+                l0: words_mut(l0),
+                lf: words_mut(lf),
+                scratch: words_mut(scratch),
             };
             if !asking::asked(at, call, |question| self.model.ask(question)) {
                 asking::unknown(f);

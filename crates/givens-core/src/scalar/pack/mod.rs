@@ -30,22 +30,28 @@ mod scalar;
 mod set;
 mod tracks;
 
-/// The pack of `f64` that models behind a pointer are compiled for, and its set: of vectors twice as wide, many machines
-/// do not get more.
+/// The packs of `f64` and of `f32` that models behind a pointer are compiled for, and their set: of vectors twice as wide,
+/// many machines do not get more.
 #[cfg(target_arch = "x86_64")]
 pub(super) type Narrow = avx2::Avx2F64;
+#[cfg(target_arch = "x86_64")]
+pub(super) type NarrowSingle = avx2::Avx2F32;
 #[cfg(target_arch = "x86_64")]
 pub(crate) const NARROW: InstructionSet = InstructionSet::Avx2;
 #[cfg(all(target_arch = "aarch64", target_feature = "neon"))]
 pub(super) type Narrow = neon::NeonF64;
 #[cfg(all(target_arch = "aarch64", target_feature = "neon"))]
+pub(super) type NarrowSingle = neon::NeonF32;
+#[cfg(all(target_arch = "aarch64", target_feature = "neon"))]
 pub(crate) const NARROW: InstructionSet = InstructionSet::Neon;
 #[cfg(not(any(target_arch = "x86_64", all(target_arch = "aarch64", target_feature = "neon"))))]
 pub(super) type Narrow = array::Array<f64, 4>;
 #[cfg(not(any(target_arch = "x86_64", all(target_arch = "aarch64", target_feature = "neon"))))]
+pub(super) type NarrowSingle = array::Array<f32, 8>;
+#[cfg(not(any(target_arch = "x86_64", all(target_arch = "aarch64", target_feature = "neon"))))]
 pub(crate) const NARROW: InstructionSet = InstructionSet::Portable;
 
-/// Its lanes; one where the machine has no registers for them.
+/// The lanes of that of `f64`; one where the machine has no registers for them.
 pub(crate) const LANES: usize = match NARROW {
     InstructionSet::Portable => 1,
     InstructionSet::Neon => 2,

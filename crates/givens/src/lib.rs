@@ -31,7 +31,9 @@ pub mod metrics;
 pub mod registry;
 mod run;
 pub mod simulate;
+mod stream;
 
 pub use data::{Data, DataError, Row};
 pub use estimates::Estimates;
 pub use run::{Draws, Failure, Goal, Outcome, Samples, filter, run, run_at, sample, smooth};
+pub use stream::{Ended, Finished, Sink, Stream};

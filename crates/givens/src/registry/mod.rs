@@ -12,6 +12,7 @@ mod running;
 mod runtime;
 mod sampling;
 mod setting;
+mod streaming;
 mod time;
 mod words;
 

@@ -83,6 +83,30 @@ impl Estimates {
         self.innovation_cov.truncate(rows * d * d);
     }
 
+    /// Appends row `row` of other estimates, of as many states and measures; those of the first row that is appended to none.
+    pub fn push(&mut self, other: &Self, row: usize) {
+        if self.is_empty() {
+            *self = Self::new(other.states, other.measures, other.smoothed);
+        }
+        let (n, d) = (self.states, self.measures);
+        let copy = |to: &mut Vec<f64>, from: &[f64], len: usize| {
+            to.extend_from_slice(from.get(row * len..(row + 1) * len).unwrap_or_default());
+        };
+        copy(&mut self.time, &other.time, 1);
+        copy(&mut self.mean, &other.mean, n);
+        copy(&mut self.cov, &other.cov, n * n);
+        copy(&mut self.factor, &other.factor, n * n);
+        copy(&mut self.filtered_mean, &other.filtered_mean, n);
+        copy(&mut self.filtered_cov, &other.filtered_cov, n * n);
+        copy(&mut self.predicted_mean, &other.predicted_mean, n);
+        copy(&mut self.predicted_cov, &other.predicted_cov, n * n);
+        copy(&mut self.innovation, &other.innovation, d);
+        copy(&mut self.innovation_cov, &other.innovation_cov, d * d);
+        copy(&mut self.nis, &other.nis, 1);
+        copy(&mut self.log_likelihood, &other.log_likelihood, 1);
+        self.nis_dof.extend(other.nis_dof.get(row));
+    }
+
     /// Takes off the rows from `row` on.
     pub(crate) fn split_off(&mut self, row: usize) -> Self {
         let (n, d) = (self.states, self.measures);

@@ -56,13 +56,7 @@ fn data<'a>(rows: impl Iterator<Item = Row<'a>>, measures: usize, controls: usiz
 }
 
 /// Streams with few and many rows at once, and compares with a run.
-fn agrees(
-    name: &str,
-    goal: Goal,
-    all: usize,
-    whole: &Outcome,
-    stream: impl Fn(&Stream, &mut Sink) -> Ended,
-) {
+fn agrees(name: &str, goal: Goal, all: usize, whole: &Outcome, stream: impl Fn(&Stream, &mut Sink) -> Ended) {
     for (hold, threads) in [(1, 1), (9, 2), (30, 3)] {
         let place = format!("{name}, {goal:?}, {hold} rows at once");
         let (mut rows, mut at, mut count) = (Bits::default(), Bits::default(), 0);

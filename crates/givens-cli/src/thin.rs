@@ -59,11 +59,30 @@ impl Thinned {
             let rows = begin..(begin + stretch).min(est.len());
             let regular = rows.clone().filter(|row| (self.taken + row).is_multiple_of(every));
             let mut keep: Vec<usize> = regular.chain(extremes(est, truth, &rows)).collect();
+            keep.extend(self.outliers(est, &rows));
             keep.sort_unstable();
             keep.dedup();
             keep.into_iter().for_each(|row| self.kept.push(est, row));
         }
         self.taken += est.len();
+    }
+
+    fn band(&mut self, dof: usize) -> (f64, f64) {
+        *self.bands.entry(dof).or_insert_with(|| chi_squared_band(dof as f64))
+    }
+
+    /// Of some rows those whose NIS is outside of its band, one for each height at which they would be drawn apart.
+    fn outliers(&mut self, est: &Estimates, rows: &Range<usize>) -> Vec<usize> {
+        let (mut seen, mut found) = (0_u64, Vec::new());
+        for row in rows.clone() {
+            let (nis, (low, high)) = (est.nis[row], self.band(est.nis_dof[row]));
+            let height = 1_u64 << (16.0 * nis.ln_1p()).clamp(0.0, 63.0) as u32;
+            if (nis < low || nis > high) && seen & height == 0 {
+                seen |= height;
+                found.push(row);
+            }
+        }
+        found
     }
 
     fn count(&mut self, est: &Estimates, truth: Option<&Truth>) {
@@ -80,7 +99,7 @@ impl Thinned {
             if !nis.is_finite() {
                 continue;
             }
-            let (low, high) = *self.bands.entry(dof).or_insert_with(|| chi_squared_band(dof as f64));
+            let (low, high) = self.band(dof);
             let [inside, judged] = &mut self.counts.nis.inside;
             *judged += usize::from(low.is_finite() && high.is_finite());
             *inside += usize::from((low..=high).contains(&nis));

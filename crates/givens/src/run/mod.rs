@@ -145,7 +145,7 @@ pub(crate) fn run_until<X: Over<M>, M, H: Observation>(
     let task = Task { method, model, sensors, parameters, goal, watch };
     match Recorder::start(task, Start::Prior(t0, prior), rows.len(), between) {
         Ok(mut recorder) => {
-            recorder.forward(rows, 0..rows.len(), &mut outcome);
+            recorder.forward(&rows, 0..rows.len(), &mut outcome);
             recorder.beyond(&mut outcome);
             recorder.finish(&mut outcome, None);
         }

@@ -84,7 +84,7 @@ impl<'t, 'm, X: Over<M>, M, H: Observation> Recorder<'t, 'm, X, M, H> {
     }
 
     /// Takes in these rows, up to one that fails.
-    pub fn forward<R: Rows + ?Sized>(&mut self, rows: &R, range: Range<usize>, outcome: &mut Outcome) {
+    pub fn forward(&mut self, rows: &dyn Rows, range: Range<usize>, outcome: &mut Outcome) {
         let watch = self.task.watch;
         let mut before = range.start.checked_sub(1).and_then(|k| rows.at(k));
         outcome.estimates.reserve(range.len());

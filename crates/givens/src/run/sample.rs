@@ -110,7 +110,7 @@ pub fn sample<'a, X: Over<M>, M, H: Observation>(
         Task { method, model, sensors, parameters: &[], goal: Goal::Interval, watch: Watch::default() };
     let started = Recorder::start(task, Start::Prior(t0, prior), count, between);
     let drawn = started.map_err(|error| (0, error)).and_then(|mut recorder| {
-        recorder.forward(rows.as_slice(), 0..count, &mut outcome);
+        recorder.forward(&rows.as_slice(), 0..count, &mut outcome);
         match outcome.failure {
             Some(failure) => Err(failure),
             None => recorder.draw(&outcome.estimates, draws),

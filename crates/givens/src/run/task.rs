@@ -30,7 +30,7 @@ pub(crate) trait Rows {
     fn at(&self, k: usize) -> Option<Row<'_>>;
 }
 
-impl Rows for [Row<'_>] {
+impl Rows for &[Row<'_>] {
     fn at(&self, k: usize) -> Option<Row<'_>> {
         self.get(k).copied()
     }

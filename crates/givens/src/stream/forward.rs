@@ -1,45 +1,34 @@
 //! Once over the data: filter, fixed lag, fixed point; and a fixed interval whose rows may all be held.
 
+use super::course::Course;
 use super::{Ended, Finished, Sink};
-use crate::Estimates;
-use crate::batch::Track;
-use crate::filter::Over;
-use crate::model::Observation;
-use crate::run::{Between, Goal, Outcome, Recorder, Start, Task};
+use crate::run::{Goal, Outcome, Start};
 
 /// Rows that are handed over together, if so many may be held.
 const TOGETHER: usize = 8192;
 
-/// Runs over the track, and hands its rows to `sink`.
-pub(super) fn stream<X: Over<M>, M, H: Observation>(
-    task: Task<X, M, H>,
-    track: &Track<M, H>,
-    hold: usize,
-    sink: &mut Sink,
-) -> Ended {
-    let (rows, goal) = (track.data.len(), task.goal);
-    let smoothed = goal != Goal::Filter;
-    let mut outcome = Outcome::new(track.prior.mean().len(), track.sensors.measures(), goal);
+/// Runs over the rows, and hands them to `sink`.
+pub(super) fn stream(course: &Course, hold: usize, sink: &mut Sink) -> Ended {
+    let (data, goal, watch) = (course.data, course.goal, course.watch);
+    let (rows, mut outcome) = (data.len(), course.blank());
     // what a later row may change stays; the last row, for a time that is its own
     let (together, keep) = match goal {
         Goal::Interval => (rows, 0),
         Goal::Lag(lag) => (hold.min(TOGETHER), lag.max(1)),
         Goal::Filter | Goal::Point(_) => (hold.min(TOGETHER), 1),
     };
-    let wanted = if matches!(goal, Goal::Filter | Goal::Interval) { track.at } else { &[] };
-    let blank = Estimates::new(outcome.estimates.states(), outcome.estimates.measures(), smoothed);
-    let start = Start::Prior(track.data.start(), track.prior);
-    let mut recorder = match Recorder::start(task, start, rows, Between::new(wanted, blank)) {
+    let wanted = if matches!(goal, Goal::Filter | Goal::Interval) { course.at } else { &[] };
+    let mut recorder = match (course.begin)(Start::Prior(data.start(), course.prior), rows, wanted) {
         Ok(recorder) => recorder,
         Err(error) => return Ended { failure: Some((0, error)), ..Ended::default() },
     };
     let mut next = 0;
-    while next < rows && outcome.failure.is_none() && !task.watch.stopped() {
+    while next < rows && outcome.failure.is_none() && !watch.stopped() {
         let end = (next + together.max(1)).min(rows);
-        recorder.forward(track.data, next..end, &mut outcome);
+        recorder.forward(data, next..end, &mut outcome);
         next = end;
         if next < rows && outcome.failure.is_none() {
-            let first = recorder.first(&outcome);
+            let first = recorder.finished().saturating_sub(outcome.estimates.len());
             let (estimates, at) = &recorder.cut(&mut outcome, keep);
             if sink(Finished { first, estimates, at }).is_break() {
                 return Ended::of(outcome);
@@ -47,9 +36,9 @@ pub(super) fn stream<X: Over<M>, M, H: Observation>(
         }
     }
     recorder.beyond(&mut outcome);
-    let first = recorder.first(&outcome);
+    let first = recorder.finished().saturating_sub(outcome.estimates.len());
     recorder.finish(&mut outcome, None);
-    if !task.watch.stopped() {
+    if !watch.stopped() {
         // nothing follows, whatever is answered
         let _ = sink(Finished { first, estimates: &outcome.estimates, at: &outcome.at });
     }

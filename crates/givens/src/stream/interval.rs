@@ -1,11 +1,10 @@
 //! The fixed-interval smoother over more rows than may be held: thrice over the data, segment by segment.
 
+use super::course::{Course, Recording};
 use super::{Ended, Finished, Sink};
-use crate::Estimates;
-use crate::batch::{Track, each};
-use crate::filter::{Over, Snapshot, StepError};
-use crate::model::Observation;
-use crate::run::{Between, Crossing, Outcome, Recorder, Start, Task, Watch};
+use crate::batch::each;
+use crate::filter::{Snapshot, StepError};
+use crate::run::{Crossing, Outcome, Start, Watch};
 use core::num::NonZeroUsize;
 use core::ops::Range;
 use std::thread::available_parallelism;
@@ -13,27 +12,15 @@ use std::thread::available_parallelism;
 /// Rows of a segment, if so many may be held; more where the ends of so short ones would be more than their rows.
 const TOGETHER: usize = 8192;
 
-/// Smooths the track, and hands its rows to `sink`.
-pub(super) fn stream<X, M, H>(
-    task: Task<X, M, H>,
-    track: &Track<M, H>,
-    hold: usize,
-    threads: Option<NonZeroUsize>,
-    sink: &mut Sink,
-) -> Ended
-where
-    X: Over<M> + Send + Sync,
-    M: Sync,
-    H: Observation + Sync,
-{
+/// Smooths the rows, and hands them to `sink`.
+pub(super) fn stream(course: &Course, hold: usize, threads: Option<NonZeroUsize>, sink: &mut Sink) -> Ended {
     let threads = threads.or_else(|| available_parallelism().ok()).unwrap_or(NonZeroUsize::MIN);
-    let rows = track.data.len();
+    let (rows, watch) = (course.data.len(), course.watch);
     // the last segment takes the rest with it
     let most = hold / (threads.get() + 1);
     let length = rows.isqrt().max(TOGETHER).min(most).max(2);
-    let mut progress = Progress { watch: task.watch, thirds: 0, told: 0 };
-    let alone = Task { watch: Watch { rows: None, ..task.watch }, ..task };
-    let (segments, mut ended) = match Segments::find(alone, track, length, &mut progress) {
+    let mut progress = Progress { watch, thirds: 0, told: 0 };
+    let (segments, mut ended) = match Segments::find(course, length, &mut progress) {
         Ok(found) => found,
         Err(error) => return Ended { failure: Some((0, error)), ..Ended::default() },
     };
@@ -50,7 +37,7 @@ where
                 let failure = outcome.failure.filter(|_| crossed.is_none());
                 failure.map_or(Ok(crossed), Err)
             });
-            if task.watch.stopped() {
+            if watch.stopped() {
                 return ended;
             }
             match crossed {
@@ -71,7 +58,7 @@ where
             Ok::<_, (usize, StepError)>(outcome)
         });
         for (j, outcome) in group.clone().zip(done) {
-            let (Ok(outcome), false) = (outcome, task.watch.stopped()) else { return ended };
+            let (Ok(outcome), false) = (outcome, watch.stopped()) else { return ended };
             let Outcome { estimates, at, .. } = &outcome;
             progress.add(segments.rows(j).len());
             if sink(Finished { first: j * length, estimates, at }).is_break() {
@@ -83,9 +70,8 @@ where
 }
 
 /// The segments of a track that was filtered. Each but the last goes one row into the next: the record of that row leads back.
-struct Segments<'s, 't, 'm, X, M, H> {
-    task: Task<'t, 'm, X, M, H>,
-    track: &'s Track<'t, M, H>,
+struct Segments<'s, 't> {
+    course: &'s Course<'s, 't>,
     length: usize,
     /// The filter before the first row of each.
     starts: Vec<Snapshot>,
@@ -94,25 +80,23 @@ struct Segments<'s, 't, 'm, X, M, H> {
     begun: usize,
 }
 
-impl<'s, 't, 'm, X: Over<M>, M, H: Observation> Segments<'s, 't, 'm, X, M, H> {
+impl<'s, 't> Segments<'s, 't> {
     /// Filters the track, and notes where the segments begin.
     fn find(
-        task: Task<'t, 'm, X, M, H>,
-        track: &'s Track<'t, M, H>,
+        course: &'s Course<'s, 't>,
         length: usize,
         progress: &mut Progress,
     ) -> Result<(Self, Ended), StepError> {
-        let rows = track.data.len();
-        let mut segments = Self { task, track, length, starts: Vec::new(), finished: 0, begun: rows };
-        let mut outcome = segments.blank();
-        let start = Start::Prior(track.data.start(), track.prior);
-        let mut recorder = segments.recorder(start, 1, track.at)?;
-        while segments.finished < rows && !task.watch.stopped() {
-            segments.starts.push(recorder.filter.snapshot());
+        let (data, mut outcome) = (course.data, course.blank());
+        let rows = data.len();
+        let mut segments = Self { course, length, starts: Vec::new(), finished: 0, begun: rows };
+        let mut recorder = (course.begin)(Start::Prior(data.start(), course.prior), 1, course.at)?;
+        while segments.finished < rows && !course.watch.stopped() {
+            segments.starts.push(recorder.snapshot());
             let end = (segments.finished + length).min(rows);
-            recorder.forward(track.data, segments.finished..end, &mut outcome);
-            progress.add(recorder.finished - segments.finished);
-            segments.finished = recorder.finished;
+            recorder.forward(data, segments.finished..end, &mut outcome);
+            progress.add(recorder.finished() - segments.finished);
+            segments.finished = recorder.finished();
             if outcome.failure.is_some() {
                 segments.begun = segments.finished + 1;
                 break;
@@ -135,24 +119,10 @@ impl<'s, 't, 'm, X: Over<M>, M, H: Observation> Segments<'s, 't, 'm, X, M, H> {
         j * self.length..end
     }
 
-    fn blank(&self) -> Outcome {
-        Outcome::new(self.track.prior.mean().len(), self.track.sensors.measures(), self.task.goal)
-    }
-
-    fn recorder(
-        &self,
-        start: Start,
-        rows: usize,
-        at: &'t [f64],
-    ) -> Result<Recorder<'t, 'm, X, M, H>, StepError> {
-        let (n, d) = (self.track.prior.mean().len(), self.track.sensors.measures());
-        Recorder::start(self.task, start, rows, Between::new(at, Estimates::new(n, d, true)))
-    }
-
     /// Filters segment `j` again, up to what failed.
-    fn forward(&self, j: usize) -> Result<(Recorder<'t, 'm, X, M, H>, Outcome), (usize, StepError)> {
+    fn forward(&self, j: usize) -> Result<(Box<dyn Recording + Send + 't>, Outcome), (usize, StepError)> {
         let Range { start, end } = self.rows(j);
-        let (data, at, is_last) = (self.track.data, self.track.at, j + 1 == self.count());
+        let (data, at, is_last) = (self.course.data, self.course.at, j + 1 == self.count());
         // a row that failed is tried again: the way back begins where it left the filter
         let rows = start..if is_last { self.begun } else { end + 1 };
         let before = |row: usize| {
@@ -161,9 +131,9 @@ impl<'s, 't, 'm, X: Over<M>, M, H: Observation> Segments<'s, 't, 'm, X, M, H> {
         };
         let first = if j == 0 { 0 } else { before(start) };
         let wanted = &at[first..if is_last { at.len() } else { before(end) }];
-        let snapshot = Start::Snapshot(&self.starts[j]);
-        let mut recorder = self.recorder(snapshot, rows.len(), wanted).map_err(|error| (start, error))?;
-        let mut outcome = self.blank();
+        let begun = (self.course.begin)(Start::Snapshot(&self.starts[j]), rows.len(), wanted);
+        let mut recorder = begun.map_err(|error| (start, error))?;
+        let mut outcome = self.course.blank();
         recorder.forward(data, rows, &mut outcome);
         recorder.beyond(&mut outcome);
         Ok((recorder, outcome))

@@ -1,5 +1,6 @@
 //! One long trajectory, whose estimates are handed over as they are finished: memory does not grow with its rows.
 
+mod course;
 mod forward;
 mod interval;
 
@@ -7,11 +8,12 @@ use crate::Estimates;
 use crate::batch::Track;
 use crate::filter::{Over, StepError};
 use crate::model::Observation;
-use crate::run::{Goal, Task, Watch};
+use crate::run::{Goal, Start, Task, Watch};
 use crate::smoother::History;
 use core::num::NonZeroUsize;
 use core::ops::ControlFlow;
 use core::sync::atomic::{AtomicBool, AtomicUsize};
+use course::Course;
 
 /// Rows that are finished together.
 #[derive(Clone, Copy, Debug)]
@@ -108,13 +110,18 @@ impl Stream<'_> {
         M: Sync,
         H: Observation + Sync,
     {
-        let Track { model, sensors, data, parameters, .. } = *track;
-        let watch = Watch { cancel: self.cancel, rows: self.rows };
-        let task = Task { method, model, sensors, parameters, goal: self.goal, watch };
-        let is_short = data.len() <= self.hold;
-        match self.goal {
-            Goal::Interval if !is_short => interval::stream(task, track, self.hold, self.threads, sink),
-            _ => forward::stream(task, track, self.hold, sink),
+        let Track { model, sensors, data, prior, parameters, at } = *track;
+        let (goal, watch) = (self.goal, Watch { cancel: self.cancel, rows: self.rows });
+        // a smoother in segments counts its rows itself
+        let segments = goal == Goal::Interval && data.len() > self.hold;
+        let counted = if segments { Watch { rows: None, ..watch } } else { watch };
+        let task = Task { method, model, sensors, parameters, goal, watch: counted };
+        let begin = |start: Start<'_>, rows, at| course::begin(task, start, rows, at);
+        let course = Course { begin: &begin, data, prior, at, goal, measures: sensors.measures(), watch };
+        if segments {
+            interval::stream(&course, self.hold, self.threads, sink)
+        } else {
+            forward::stream(&course, self.hold, sink)
         }
     }
 }

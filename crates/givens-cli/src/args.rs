@@ -25,7 +25,12 @@ pub struct Args {
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// Estimate each state from the measurements up to it
-    #[command(after_help = "Examples:
+    #[command(after_help = "\
+Memory: the table, some 200 bytes a row. A single track is written as it is
+finished; tracks side by side are held whole, 8 (4 + 2n + 3n² + d + d²) bytes
+a row of n states and d measures.
+
+Examples:
   givens filter turn.toml radar.csv -o track.csv --plot track.svg
   givens filter turn.toml radar.csv --method ukf --set kappa=1 --format jsonl
   givens filter turn.toml radar.csv --at every:0.5    also between the rows
@@ -33,7 +38,12 @@ pub enum Command {
   givens filter turn.toml - --truth truth.csv < radar.csv > track.csv")]
     Filter(FilterArgs),
     /// Estimate each state from all measurements, before and after it
-    #[command(after_help = "Examples:
+    #[command(after_help = "\
+Memory: the table, some 200 bytes a row, and 8 (4 + 5n + 7n² + d + d²) bytes a
+row of n states and d measures. A single track that needs more than 128 MB of
+these is smoothed in segments, three times over its rows, with the same numbers.
+
+Examples:
   givens smooth turn.toml radar.csv -o track.csv --plot track.png
   givens smooth turn.toml radar.csv --lag 5      each row with the next five
   givens smooth turn.toml radar.csv --point 0    the state at t = 0, row by row")]

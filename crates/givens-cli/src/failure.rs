@@ -1,6 +1,8 @@
 //! What failed, in the names of the model.
 
-use crate::message::digits;
+use crate::message::{count, digits};
+use crate::plan::Plan;
+use givens::Goal;
 use givens::explain::{Explain, Face};
 use givens::filter::{Fault, StepError};
 use givens::registry::Choice;
@@ -23,10 +25,39 @@ pub fn told(model: &Model, place: &str, what: &str, choice: Option<&Choice>, err
 }
 
 /// The mean from which a step set out that failed on a number or in a solver; nothing for other faults.
-pub fn set_out(model: &Model, mean: &[f64], fault: &Fault) -> String {
+fn set_out(model: &Model, mean: &[f64], fault: &Fault) -> String {
     if mean.is_empty() || !matches!(fault, Fault::NotFinite { .. } | Fault::Solver { .. }) {
         return String::new();
     }
     let values = model.states.iter().zip(mean).map(|(name, x)| format!("{name} = {}", digits(*x)));
     format!("\n  the step set out from {}", values.collect::<Vec<_>>().join(", "))
+}
+
+/// A step that failed on the way over a track.
+pub struct Failed<'f> {
+    /// The row behind which nothing was finished, counted from where the track begins.
+    pub row: usize,
+    pub error: &'f StepError,
+    /// The mean from which it set out, if it began.
+    pub set_out: &'f [f64],
+    /// Rows with an estimate.
+    pub finished: usize,
+}
+
+impl Failed<'_> {
+    /// All of it in words, of track `i`.
+    pub fn told(&self, plan: &Plan, choice: &Choice, i: usize, goal: Goal) -> String {
+        let (track, begin) = (&plan.tracks.tracks[i], &plan.beginnings[i]);
+        let at = &track.rows[begin.row + self.row];
+        let place = place(&plan.data, track, at, self.error.time);
+        let what = if goal == Goal::Filter { "filter" } else { "smoother" };
+        let told = told(&plan.model, &place, what, Some(choice), self.error);
+        let set_out = set_out(&plan.model, self.set_out, &self.error.fault);
+        let finished = match self.finished {
+            0 => "no row".to_owned(),
+            rows => count(rows, "row"),
+        };
+        let of = track.id.as_ref().map_or(String::new(), |id| format!(" of track {id}"));
+        format!("{told}{set_out}\n  {finished}{of} finished before")
+    }
 }

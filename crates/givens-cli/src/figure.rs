@@ -2,9 +2,9 @@
 
 use crate::message::Stop;
 use crate::plan::Plan;
-use crate::session::Session;
-use givens::Estimates;
+use crate::thin::Counts;
 use givens::metrics::chi_squared_band;
+use givens::{Estimates, Goal};
 use givens_io::figure::{NisSeries, PlaneTrack, StateSeries, Track, TrackFigure, png, svg};
 use std::collections::HashMap;
 use std::path::Path;
@@ -21,17 +21,28 @@ fn ending(path: &Path) -> String {
     path.extension().map_or(String::new(), |ending| ending.to_string_lossy().to_lowercase())
 }
 
+/// What of a track is drawn.
+pub struct Shown<'e> {
+    pub goal: Goal,
+    /// The rows, or of a long run some of them.
+    pub rows: &'e Estimates,
+    /// The states at the times of `--at`.
+    pub at: Option<&'e Estimates>,
+    /// What was counted of all rows, where only some are drawn.
+    pub counts: Option<&'e Counts>,
+}
+
 /// Draws the run: the bytes of the file `path`, SVG or PNG by its ending.
-pub fn draw(path: &Path, plan: &Plan, session: &Session) -> Result<Vec<u8>, Stop> {
+pub fn draw(path: &Path, plan: &Plan, shown: &[Shown]) -> Result<Vec<u8>, Stop> {
     let model = &plan.model;
     let plane = model.plane;
     let name = |i: usize| model.states[i].clone();
-    let smoothed = session.estimates().any(Estimates::is_smoothed);
+    let smoothed = shown.iter().any(|shown| shown.rows.is_smoothed());
     let what = if smoothed { "smoothed" } else { "filtered" };
     let figure = TrackFigure {
         title: format!("{} — {what} by {}", stem(&model.file), plan.choice.title()),
         plane_labels: plane.map_or_else(Default::default, |[x, y]| [name(x), name(y)]),
-        tracks: (0..session.answers.len()).map(|i| track(plan, session, i)).collect(),
+        tracks: shown.iter().enumerate().map(|(i, shown)| track(plan, shown, i)).collect(),
         smoothed,
         ..TrackFigure::default()
     };
@@ -46,12 +57,12 @@ fn stem(file: &str) -> &str {
     Path::new(file).file_stem().and_then(|stem| stem.to_str()).unwrap_or(file)
 }
 
-fn track(plan: &Plan, session: &Session, i: usize) -> Track {
+fn track(plan: &Plan, shown: &Shown, i: usize) -> Track {
     let rows = &plan.tracks.tracks[i].rows;
-    let est = &session.answers[i].estimates;
-    let drawn = in_order(est, session.at.get(i).map(|answer| &answer.estimates));
+    let est = shown.rows;
+    let drawn = in_order(est, shown.at);
     let n = est.states();
-    let truth = session.truth_at(plan, i, drawn.iter().map(|(est, row)| est.time[*row]));
+    let truth = plan.truth_at(i, shown.goal, drawn.iter().map(|(est, row)| est.time[*row]));
     let states = (0..n).map(|state| StateSeries {
         name: plan.model.states[state].clone(),
         time: drawn.iter().map(|(est, row)| est.time[*row]).collect(),
@@ -65,6 +76,7 @@ fn track(plan: &Plan, session: &Session, i: usize) -> Track {
             .as_ref()
             .map(|truth| truth.states.iter().skip(state).step_by(n).copied().collect::<Vec<_>>())
             .filter(|x| x.iter().any(|x| !x.is_nan())),
+        inside: shown.counts.map(|counts| counts.states[state]),
     });
     let plane = plan.model.plane.map(|[x, y]| {
         let pair = |of: &[f64]| [of[x], of[y]];
@@ -83,7 +95,7 @@ fn track(plan: &Plan, session: &Session, i: usize) -> Track {
         }
     });
     let name = plan.tracks.tracks[i].id.clone().unwrap_or_default();
-    Track { name, plane, states: states.collect(), nis: Some(nis(est)) }
+    Track { name, plane, states: states.collect(), nis: Some(nis(shown)) }
 }
 
 /// The rows, and the times of `--at` that are none of theirs, in order of time: estimates and which of them.
@@ -104,9 +116,11 @@ fn true_way(plan: &Plan, i: usize, x: usize, y: usize) -> Option<Vec<[f64; 2]>> 
     Some(truth.rows[i].iter().map(|&k| [xs[k], ys[k]]).collect())
 }
 
-fn nis(est: &Estimates) -> NisSeries {
+fn nis(shown: &Shown) -> NisSeries {
+    let est = shown.rows;
     let mut bands: HashMap<usize, (f64, f64)> = HashMap::new();
     let mut band = |dof: usize| *bands.entry(dof).or_insert_with(|| chi_squared_band(dof as f64));
     let (lower, upper) = est.nis_dof.iter().map(|&dof| band(dof)).unzip();
-    NisSeries { time: est.time.clone(), nis: est.nis.clone(), lower, upper }
+    let all = shown.counts.map(|counts| counts.nis.clone());
+    NisSeries { time: est.time.clone(), nis: est.nis.clone(), lower, upper, all }
 }

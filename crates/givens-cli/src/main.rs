@@ -18,6 +18,8 @@ mod progress;
 mod report;
 mod session;
 mod stdout;
+mod streaming;
+mod thin;
 mod timetable;
 mod truth;
 

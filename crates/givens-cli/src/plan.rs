@@ -7,6 +7,7 @@ use crate::method::{chosen, pair};
 use crate::truth::Truth;
 use core::f64::consts::TAU;
 use givens::Goal;
+use givens::metrics::Truth as States;
 use givens::registry::Choice;
 use givens::scalar::Shown;
 use givens_io::{Beginning, Model, Track, Tracks, read_tracks};
@@ -44,6 +45,20 @@ impl Plan {
         let beginnings = beginnings.collect::<Result<_, _>>()?;
         let truth = truth.map(|path| Truth::read(path, &model, &tracks)).transpose()?;
         Ok(Self { model, data: data.to_owned(), tracks, beginnings, choice, truth })
+    }
+
+    /// The truth that estimates of track `i` at these times are of, NaN where there is none.
+    pub fn truth_at(&self, i: usize, goal: Goal, times: impl Iterator<Item = f64>) -> Option<States> {
+        let truth = self.truth.as_ref()?;
+        let mut states = Vec::new();
+        for t in times {
+            // a fixed point is of one time, whatever the row
+            let t = if let Goal::Point(t) = goal { t } else { t };
+            let row = truth.row(i, t);
+            let of = |column: &Vec<f64>| row.map_or(f64::NAN, |k| column[k]);
+            states.extend(truth.states.iter().map(|column| column.as_ref().map_or(f64::NAN, of)));
+        }
+        Some(States { states })
     }
 
     /// The time at which `--point` stands on the axis of each track.

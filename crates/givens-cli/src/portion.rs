@@ -79,7 +79,7 @@ fn tracks<'a, M, H>(
 }
 
 /// The rows of track `i` from its beginning on.
-fn data(plan: &Plan, i: usize) -> Result<Data, Stop> {
+pub fn data(plan: &Plan, i: usize) -> Result<Data, Stop> {
     let (track, begin) = (&plan.tracks.tracks[i], &plan.beginnings[i]);
     let (d, controls) = (plan.model.measures(), plan.model.controls.len());
     let mut data = Data::with_controls(d, controls).starting_at(begin.time);

@@ -2,29 +2,32 @@
 
 use crate::message::{count, digits, say};
 use crate::plan::Plan;
-use crate::session::Session;
-use givens::Estimates;
 use givens::metrics::{Accuracy, Consistency};
 use givens::scalar::Shown;
 use givens_io::Model;
 
+/// What the rows of a run add up to.
+pub struct Summary {
+    pub rows: usize,
+    pub log_likelihood: f64,
+    pub consistency: Consistency,
+    /// Against a truth, if there is one.
+    pub accuracy: Option<Accuracy>,
+}
+
 /// The closing lines of a run.
-pub fn closing(plan: &Plan, session: &Session) {
-    let rows: usize = session.estimates().map(Estimates::len).sum();
+pub fn closing(plan: &Plan, summary: &Summary) {
     let tracks = plan.tracks.tracks.len();
     let of = if tracks == 1 { String::new() } else { format!(" of {tracks} tracks") };
-    let (title, counted) = (plan.choice.title(), count(rows, "row"));
-    if rows == 0 {
+    let (title, counted) = (plan.choice.title(), count(summary.rows, "row"));
+    if summary.rows == 0 {
         say(&format!("{title}: no row{of} was finished"));
         return;
     }
-    let consistency = Consistency::of(session.estimates());
-    say(&format!(
-        "{title}: {counted}{of}, log-likelihood {:.3}, {consistency}",
-        Shown(session.log_likelihood())
-    ));
-    if let Some(accuracy) = session.accuracy(plan) {
-        for line in accuracy_lines(&plan.model, &accuracy) {
+    let Summary { log_likelihood, consistency, .. } = summary;
+    say(&format!("{title}: {counted}{of}, log-likelihood {:.3}, {consistency}", Shown(*log_likelihood)));
+    if let Some(accuracy) = &summary.accuracy {
+        for line in accuracy_lines(&plan.model, accuracy) {
             say(&line);
         }
     }

@@ -1,14 +1,16 @@
 //! A plan carried out: the method over every track, in packs and on all the threads it may have.
 
 use crate::failure;
+use crate::figure::Shown;
 use crate::instants::Instants;
-use crate::message::{Stop, count};
+use crate::message::Stop;
 use crate::plan::Plan;
 use crate::portion::portions;
 use crate::progress::Progress;
+use crate::report::Summary;
 use core::num::NonZeroUsize;
 use givens::batch::Batch;
-use givens::metrics::{Accuracy, Truth};
+use givens::metrics::{Accuracy, Consistency};
 use givens::registry::Choice;
 use givens::{Estimates, Goal, Outcome};
 use givens_io::Answer;
@@ -64,17 +66,9 @@ impl Session {
     fn take(&mut self, plan: &Plan, choice: &Choice, i: usize, outcome: Outcome, manner: Manner) {
         let (track, begin, goal) = (&plan.tracks.tracks[i], &plan.beginnings[i], self.goals[i]);
         if let Some((row, error)) = &outcome.failure {
-            let at = &track.rows[begin.row + row];
-            let place = failure::place(&plan.data, track, at, error.time);
-            let what = if goal == Goal::Filter { "filter" } else { "smoother" };
-            let told = failure::told(&plan.model, &place, what, Some(choice), error);
-            let set_out = failure::set_out(&plan.model, &outcome.failed_at, &error.fault);
-            let finished = match outcome.estimates.len() {
-                0 => "no row".to_owned(),
-                rows => count(rows, "row"),
-            };
-            let of = track.id.as_ref().map_or(String::new(), |id| format!(" of track {id}"));
-            self.failures.push(format!("{told}{set_out}\n  {finished}{of} finished before"));
+            let finished = outcome.estimates.len();
+            let at = failure::Failed { row: *row, error, set_out: &outcome.failed_at, finished };
+            self.failures.push(at.told(plan, choice, i, goal));
         }
         if manner.at.is_some() {
             let estimates = kept(outcome.at, manner.whole);
@@ -102,31 +96,35 @@ impl Session {
         self.estimates().map(Estimates::total_log_likelihood).fold(0.0, core::ops::Add::add)
     }
 
-    /// The truth that the rows of track `i` estimate, NaN where there is none.
-    fn truth_at_rows(&self, plan: &Plan, i: usize) -> Option<Truth> {
-        self.truth_at(plan, i, self.answers[i].estimates.time.iter().copied())
-    }
-
-    /// The truth that the estimates of track `i` at these times are of, NaN where there is none.
-    pub fn truth_at(&self, plan: &Plan, i: usize, times: impl Iterator<Item = f64>) -> Option<Truth> {
-        let truth = plan.truth.as_ref()?;
-        let mut states = Vec::new();
-        for t in times {
-            // a fixed point is of one time, whatever the row
-            let t = if let Goal::Point(t) = self.goals[i] { t } else { t };
-            let row = truth.row(i, t);
-            let of = |column: &Vec<f64>| row.map_or(f64::NAN, |k| column[k]);
-            states.extend(truth.states.iter().map(|column| column.as_ref().map_or(f64::NAN, of)));
-        }
-        Some(Truth { states })
-    }
-
     /// Errors against the truth, of all tracks together and of each state.
     pub fn accuracy(&self, plan: &Plan) -> Option<Accuracy> {
         plan.truth.as_ref()?;
-        let accuracies = (0..self.answers.len())
-            .filter_map(|i| Some(Accuracy::of(&self.answers[i].estimates, &self.truth_at_rows(plan, i)?)));
+        let accuracies = (0..self.answers.len()).filter_map(|i| {
+            let estimates = &self.answers[i].estimates;
+            Some(Accuracy::of(estimates, &plan.truth_at(i, self.goals[i], estimates.time.iter().copied())?))
+        });
         Accuracy::pooled(accuracies)
+    }
+
+    /// What the rows add up to.
+    pub fn summary(&self, plan: &Plan) -> Summary {
+        Summary {
+            rows: self.estimates().map(Estimates::len).sum(),
+            log_likelihood: self.log_likelihood(),
+            consistency: Consistency::of(self.estimates()),
+            accuracy: self.accuracy(plan),
+        }
+    }
+
+    /// What a figure of it shows.
+    pub fn shown(&self) -> Vec<Shown<'_>> {
+        let one = |i: usize| Shown {
+            goal: self.goals[i],
+            rows: &self.answers[i].estimates,
+            at: self.at.get(i).map(|answer| &answer.estimates),
+            counts: None,
+        };
+        (0..self.answers.len()).map(one).collect()
     }
 }
 

@@ -16,7 +16,7 @@ pub use model_file::{
     BeginError, Beginning, Dynamics, FilterSettings, Model, Prior, Sensor, Setting, SettingValue, Start,
 };
 pub use output::{
-    Answer, Destination, DestinationError, Drawn, Format, make_folder, read_back, write_answers,
-    write_measurements, write_states,
+    Answer, AnswerWriter, Destination, DestinationError, Drawn, Format, Part, make_folder, read_back,
+    write_answers, write_measurements, write_states,
 };
 pub use table::{Calendar, Row, Track, Tracks, Truth, parse_tracks, read_times, read_tracks, read_truth};

@@ -14,3 +14,17 @@ pub fn room(argument: &'static str, count: u32, bytes: usize) -> Result<()> {
     );
     Err(Input::new(argument, message).help("draw fewer at a time, each time with another seed").into())
 }
+
+/// An error where `rows` rows of so many bytes each find no room.
+pub fn room_for_rows(rows: usize, each: usize) -> Result<()> {
+    let bytes = rows.saturating_mul(each);
+    if Vec::<u8>::new().try_reserve_exact(bytes).is_ok() {
+        return Ok(());
+    }
+    let message = format!(
+        "`t` has {rows} times: their estimates, {each} bytes each, need {:.3e} bytes, more than there is memory for",
+        bytes as f64
+    );
+    let help = "step a filter by hand (gv.filter(…) without rows), or run the command `givens`, which holds few rows at once";
+    Err(Input::new("t", message).help(help).into())
+}

@@ -2,7 +2,7 @@
 
 use givens::filter::Gaussian;
 use givens::registry::Choice as Chosen;
-use givens::{Data, Goal, Outcome};
+use givens::{Data, Goal, Outcome, Stream};
 use numpy::PyReadonlyArrayDyn;
 use pyo3::prelude::*;
 
@@ -11,6 +11,7 @@ use crate::crowd::{Ended, aside, each, threads};
 use crate::errors::Result;
 use crate::estimates::Estimates;
 use crate::failure::noted;
+use crate::memory::room_for_rows;
 use crate::model::{Model, Moves};
 use crate::numbers::numbers;
 use crate::packs::{self, alike};
@@ -46,6 +47,7 @@ impl Job {
         let prior = belief(model, mean, cov)?;
         let data = rows(model, t0, time, z, u)?;
         let goal = self::goal(goal, value, &numbers(time), data.start())?;
+        room_for_rows(data.len(), Stream::bytes_per_row(goal, prior.mean().len(), data.measures()))?;
         let at = at.map(|at| times(at, data.start())).transpose()?;
         Ok(Self { model: model.clone(), choice: choice.0, prior, data, goal, at })
     }

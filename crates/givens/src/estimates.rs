@@ -83,6 +83,52 @@ impl Estimates {
         self.innovation_cov.truncate(rows * d * d);
     }
 
+    /// Appends row `row` of other estimates, of as many states and measures; those of the first row that is appended to none.
+    pub fn push(&mut self, other: &Self, row: usize) {
+        if self.is_empty() {
+            *self = Self::new(other.states, other.measures, other.smoothed);
+        }
+        let (n, d) = (self.states, self.measures);
+        let copy = |to: &mut Vec<f64>, from: &[f64], len: usize| {
+            to.extend_from_slice(from.get(row * len..(row + 1) * len).unwrap_or_default());
+        };
+        copy(&mut self.time, &other.time, 1);
+        copy(&mut self.mean, &other.mean, n);
+        copy(&mut self.cov, &other.cov, n * n);
+        copy(&mut self.factor, &other.factor, n * n);
+        copy(&mut self.filtered_mean, &other.filtered_mean, n);
+        copy(&mut self.filtered_cov, &other.filtered_cov, n * n);
+        copy(&mut self.predicted_mean, &other.predicted_mean, n);
+        copy(&mut self.predicted_cov, &other.predicted_cov, n * n);
+        copy(&mut self.innovation, &other.innovation, d);
+        copy(&mut self.innovation_cov, &other.innovation_cov, d * d);
+        copy(&mut self.nis, &other.nis, 1);
+        copy(&mut self.log_likelihood, &other.log_likelihood, 1);
+        self.nis_dof.extend(other.nis_dof.get(row));
+    }
+
+    /// Takes off the rows from `row` on.
+    pub(crate) fn split_off(&mut self, row: usize) -> Self {
+        let (n, d) = (self.states, self.measures);
+        let off = |of: &mut Vec<f64>, len: usize| of.split_off((row * len).min(of.len()));
+        Self {
+            time: off(&mut self.time, 1),
+            mean: off(&mut self.mean, n),
+            cov: off(&mut self.cov, n * n),
+            factor: off(&mut self.factor, n * n),
+            filtered_mean: off(&mut self.filtered_mean, n),
+            filtered_cov: off(&mut self.filtered_cov, n * n),
+            predicted_mean: off(&mut self.predicted_mean, n),
+            predicted_cov: off(&mut self.predicted_cov, n * n),
+            innovation: off(&mut self.innovation, d),
+            innovation_cov: off(&mut self.innovation_cov, d * d),
+            nis: off(&mut self.nis, 1),
+            nis_dof: self.nis_dof.split_off(row),
+            log_likelihood: off(&mut self.log_likelihood, 1),
+            ..*self
+        }
+    }
+
     /// Writes row `from` of other estimates of the same trajectory over row `row`.
     pub(crate) fn copy_row(&mut self, row: usize, other: &Self, from: usize) {
         let (n, d) = (self.states, self.measures);
@@ -103,6 +149,17 @@ impl Estimates {
         copy(&mut self.nis, &other.nis, 1);
         copy(&mut self.log_likelihood, &other.log_likelihood, 1);
         self.nis_dof[row] = other.nis_dof[from];
+    }
+
+    /// Bytes of one row of the estimates of n `states` and d `measures`; those of a smoother are `smoothed`.
+    ///
+    /// ```
+    /// assert_eq!(givens::Estimates::row_bytes(5, 2, false), 760);
+    /// ```
+    pub const fn row_bytes(states: usize, measures: usize, smoothed: bool) -> usize {
+        let (vectors, matrices) = if smoothed { (3, 4) } else { (2, 3) };
+        let belief = vectors * states + matrices * states * states;
+        size_of::<f64>() * (4 + belief + measures + measures * measures)
     }
 
     /// Number of rows.

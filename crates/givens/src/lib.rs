@@ -32,8 +32,10 @@ mod precision;
 pub mod registry;
 mod run;
 pub mod simulate;
+mod stream;
 
 pub use data::{Data, DataError, Row};
 pub use estimates::Estimates;
 pub use precision::{Computes, Single};
 pub use run::{Draws, Failure, Goal, Outcome, Samples, filter, run, run_at, sample, smooth};
+pub use stream::{Ended, Finished, Sink, Stream};

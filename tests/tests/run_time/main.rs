@@ -1,4 +1,4 @@
-//! What a front end of run time is promised, over the whole registry: filters stepped by hand, snapshots, factors, joint draws, batches, packs.
+//! What a front end of run time is promised, over the whole registry: filters stepped by hand, snapshots, factors, joint draws, batches, packs, streams.
 
 mod batches;
 mod by_hand;
@@ -7,3 +7,4 @@ mod packs;
 mod samples;
 mod single;
 mod snapshots;
+mod streams;

@@ -1,15 +1,17 @@
 //! `givens filter` and `givens smooth`.
 
 use crate::args::{FilterArgs, FormatArg, SmoothArgs};
+use crate::figure::{self, Shown};
 use crate::files::{self, Sink};
 use crate::instants::Instants;
 use crate::message::Stop;
 use crate::plan::Plan;
+use crate::report;
 use crate::session::{Manner, Session};
-use crate::{figure, report};
+use crate::streaming::Streaming;
 use givens::Goal;
 use givens_io::{Format, write_answers};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Estimates each state from the measurements up to it.
 pub fn filter(args: &FilterArgs) -> Result<(), Stop> {
@@ -41,17 +43,29 @@ fn run(args: &FilterArgs, goals: impl Fn(&Plan) -> Result<Vec<Goal>, Stop>) -> R
     let canvases = args.plots.iter().map(|path| Ok((path, Sink::open(Some(path))?)));
     let canvases = canvases.collect::<Result<Vec<_>, Stop>>()?;
     let manner = Manner { at: at.as_ref(), threads: args.threads, whole: format == Format::Jsonl };
+    if let [goal] = goals[..] {
+        let mut alone = Streaming::new(&plan, goal, manner, format, !canvases.is_empty())?;
+        sink.write(|out| alone.run(out))?;
+        draw(canvases, &plan, alone.shown().as_slice())?;
+        report::closing(&plan, &alone.summary());
+        return alone.failure().map_or(Ok(()), |failure| Err(Stop::failed(failure)));
+    }
     let session = Session::run(&plan, &plan.choice, &goals, manner)?;
     sink.write(|out| match &at {
         Some(at) => write_answers(out, format, &plan.model, &at.tracks(&plan), &session.at, args.threads),
         None => write_answers(out, format, &plan.model, &plan.tracks, &session.answers, args.threads),
     })?;
-    for (path, canvas) in canvases {
-        let picture = figure::draw(path, &plan, &session)?;
-        canvas.write(|out| out.write_all(&picture))?;
-    }
-    report::closing(&plan, &session);
+    draw(canvases, &plan, &session.shown())?;
+    report::closing(&plan, &session.summary(&plan));
     if session.failures.is_empty() { Ok(()) } else { Err(Stop::failures(&session.failures)) }
+}
+
+/// Draws the figures.
+fn draw(canvases: Vec<(&PathBuf, Sink)>, plan: &Plan, shown: &[Shown]) -> Result<(), Stop> {
+    canvases.into_iter().try_for_each(|(path, canvas)| {
+        let picture = figure::draw(path, plan, shown)?;
+        canvas.write(|out| out.write_all(&picture))
+    })
 }
 
 /// The format asked for, or that of the output's name.

@@ -1,6 +1,8 @@
 //! Long tables.
 
+use super::common::Folder;
 use super::folder;
+use core::fmt::Write;
 
 #[test]
 fn a_hundred_thousand_rows_run_in_seconds() {
@@ -26,4 +28,85 @@ fn a_thousand_tracks_with_a_truth_run_in_seconds() {
     let found = folder.run("smooth walk.toml data.csv --truth truth.csv -o out.csv").good();
     assert!(found.stderr.contains("40000 rows of 2000 tracks"), "{}", found.stderr);
     assert!(begun.elapsed().as_secs() < 120, "{:?}", begun.elapsed());
+}
+
+/// A chain of thirty states, whose records of some three thousand rows are more than a smoother holds at once.
+const STATES: usize = 30;
+const ROWS: usize = 3000;
+
+fn chain() -> String {
+    let names: Vec<String> = (0..STATES).map(|i| format!("\"x{i}\"")).collect();
+    let moves: Vec<String> =
+        (0..STATES).map(|i| format!("x{i} = \"0.9*x{i} + 0.05*x{}\"", (i + 1) % STATES)).collect();
+    let noise: Vec<String> = (0..STATES)
+        .map(|i| {
+            format!(
+                "[{}]",
+                (0..STATES).map(|j| if i == j { "0.1" } else { "0" }).collect::<Vec<_>>().join(",")
+            )
+        })
+        .collect();
+    format!(
+        "[state]\nnames = [{}]\ntime = 0.0\nmean = {:?}\nstd = {:?}\n[dynamics]\ntransition = {{ {} }}\n\
+         noise_cov = [{}]\nstep = 1.0\n[[sensor]]\nname = \"ends\"\nmeasures = {{ a = \"x0\", b = \"x{}\" }}\n\
+         std = {{ a = 0.5, b = 0.5 }}\n[plot]\nplane = [\"x0\", \"x1\"]\n",
+        names.join(","),
+        [0.0; STATES],
+        [1.0; STATES],
+        moves.join(", "),
+        noise.join(","),
+        STATES / 2
+    )
+}
+
+/// A folder with the rows of one track, and the same beside a row of another track.
+fn chains(name: &str, rows: usize) -> Folder {
+    let folder = folder(name);
+    folder.write("chain.toml", &chain());
+    let (mut one, mut two) = (String::from("time,a,b\n"), String::from("time,track_id,a,b\n"));
+    for k in 1..=rows {
+        let a = if k % 5 == 0 { String::new() } else { format!("{}", (0.7 * k as f64).sin()) };
+        let b = (0.3 * k as f64).cos();
+        writeln!(one, "{k},{a},{b}").unwrap();
+        writeln!(two, "{k},one,{a},{b}").unwrap();
+    }
+    two.push_str("1,two,0.5,0.5\n");
+    folder.write("one.csv", &one).write("two.csv", &two);
+    folder
+}
+
+// two tracks in one table are held whole: ckf goes in no pack, and gives the numbers of a track alone
+fn alike(folder: &Folder, command: &str, ending: &str) {
+    let alone = folder.run(&format!("{} one.csv --method ckf --format {ending}", command)).good().stdout;
+    let beside = folder.run(&format!("{} two.csv --method ckf --format {ending}", command)).good().stdout;
+    let (named, none) =
+        if ending == "csv" { (",one,", ",") } else { ("\"track_id\":\"one\"", "\"track_id\":null") };
+    let beside: Vec<String> =
+        beside.lines().map(|line| line.replacen(named, none, 1).replacen(",track_id,", ",", 1)).collect();
+    let alone: Vec<&str> = alone.lines().collect();
+    assert!(alone.len() >= 10 && beside.len() > alone.len(), "{command}");
+    let other = beside.iter().filter(|line| !line.contains("two"));
+    let rows = alone.iter().zip(other).enumerate();
+    rows.for_each(|(k, (alone, beside))| assert_eq!(alone, beside, "{command} {ending}, line {k}"));
+}
+
+#[test]
+fn a_track_alone_has_the_numbers_that_it_has_beside_others() {
+    let folder = chains("few", 40);
+    for command in ["filter chain.toml", "smooth chain.toml", "smooth chain.toml --lag 3"] {
+        alike(&folder, command, "csv");
+        alike(&folder, command, "jsonl");
+    }
+    alike(&folder, "smooth chain.toml --at every:1", "jsonl");
+    alike(&folder, "smooth chain.toml --at every:3", "csv");
+}
+
+#[test]
+fn a_smoother_in_segments_has_the_numbers_of_one_that_holds_all_rows() {
+    let folder = chains("many", ROWS);
+    let found = folder.run("smooth chain.toml one.csv -o out.csv --plot out.svg").good();
+    let told =
+        format!("{ROWS} rows are smoothed in segments, three times over the data: at once they would take");
+    assert!(found.stderr.contains(&told), "{}", found.stderr);
+    alike(&folder, "smooth chain.toml", "csv");
 }

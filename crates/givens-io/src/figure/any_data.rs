@@ -99,14 +99,14 @@ proptest! {
         tracks in 0usize..10,
     ) {
         let filtered = smoothed.then(|| mean.clone());
-        let series = StateSeries { name: "x".into(), time: time.clone(), mean, std, filtered, truth };
+        let series = StateSeries { name: "x".into(), time: time.clone(), mean, std, filtered, truth, inside: None };
         let filtered = smoothed.then(|| measurements.clone());
         let plane = PlaneTrack { estimate, covariance, filtered, measurements, truth: truth_way };
         let track = Track {
             name: String::new(),
             plane: has_plane.then_some(plane),
             states: vec![series; states],
-            nis: has_nis.then_some(NisSeries { time, nis, lower, upper }),
+            nis: has_nis.then_some(NisSeries { time, nis, lower, upper, all: None }),
         };
         let figure = TrackFigure { tracks: vec![track; tracks], smoothed, ..TrackFigure::default() }.figure();
         let text = svg(&figure);

@@ -51,7 +51,7 @@ pub use colour::Colour;
 pub use file::{FigureError, write};
 pub use plot::{Axis, Block, Figure, Grid, Mark, Panel, Shape};
 pub use scale::Scale;
-pub use track::{NisSeries, PlaneTrack, StateSeries, Track, TrackFigure};
+pub use track::{NisCounts, NisSeries, PlaneTrack, StateSeries, Track, TrackFigure};
 
 /// The figure as an SVG document. Text is drawn as outlines, and labelled for screen readers.
 pub fn svg(figure: &Figure) -> String {

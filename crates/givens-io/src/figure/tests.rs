@@ -66,6 +66,7 @@ fn scenes() -> Vec<(&'static str, TrackFigure)> {
         nis: (0..100_000).map(|_| noise.next().powi(2) + noise.next().powi(2)).collect(),
         lower: vec![0.0506; 100_000],
         upper: vec![7.378; 100_000],
+        all: None,
     };
     let of = |track: Track| gallery::figure(vec![track]);
     vec![

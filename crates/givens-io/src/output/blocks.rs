@@ -4,8 +4,8 @@ use core::num::NonZeroUsize;
 use std::io::{self, Write};
 use std::thread::{Builder, available_parallelism, scope};
 
-/// Lines of a block: some ten milliseconds of work, against which a thread costs nothing.
-const BLOCK: usize = 8192;
+/// Lines of a block: some milliseconds of work, against which a thread costs nothing.
+const BLOCK: usize = 2048;
 
 /// Writes what `make` makes of the lines, block by block, as many at once as there are threads: all cores where it is not said.
 pub(super) fn write<L: Sync>(

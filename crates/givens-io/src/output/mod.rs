@@ -15,7 +15,7 @@ pub use destination::{Destination, DestinationError, make_folder, read_back};
 pub use simulated::{Drawn, write_measurements, write_states};
 
 use crate::model_file::Model;
-use crate::table::{Row, Tracks};
+use crate::table::{Row, Track, Tracks};
 
 /// How answers are written.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -62,6 +62,72 @@ fn told(error: ::csv::Error) -> io::Error {
     }
 }
 
+/// Estimates of a stretch of the rows of one track.
+#[derive(Clone, Copy, Debug)]
+pub struct Part<'a> {
+    /// The track.
+    pub track: &'a Track,
+    /// The first row that has a line.
+    pub from: usize,
+    /// The row that the first estimate is of; those between have empty lines.
+    pub row: usize,
+    /// The first estimate is the initial belief that `start` found.
+    pub started: bool,
+    /// One for each row from `row` on.
+    pub estimates: &'a Estimates,
+}
+
+/// Writes answers part by part. The lines are made on so many threads, all cores where it is not said, and are the same for any.
+#[derive(Clone, Copy, Debug)]
+pub struct AnswerWriter<'a> {
+    /// How.
+    pub format: Format,
+    /// The model, for its names.
+    pub model: &'a Model,
+    /// The table, for its columns.
+    pub tracks: &'a Tracks,
+    /// Whether the filtered belief stands beside the smoothed one, in JSON lines.
+    pub smoothed: bool,
+    /// How many.
+    pub threads: Option<NonZeroUsize>,
+}
+
+impl AnswerWriter<'_> {
+    /// Writes what stands above the rows.
+    ///
+    /// # Errors
+    /// What the writer says.
+    pub fn header(&self, out: &mut dyn Write) -> io::Result<()> {
+        match self.format {
+            Format::Csv => out.write_all(&csv::header(self.model, self.tracks)?),
+            Format::Jsonl => Ok(()),
+        }
+    }
+
+    /// Writes the rows of some parts in the order of the table.
+    ///
+    /// # Errors
+    /// What the writer says.
+    pub fn rows(&self, out: &mut dyn Write, parts: &[Part]) -> io::Result<()> {
+        let Self { format, model, tracks, smoothed, threads } = *self;
+        let mut lines = Vec::new();
+        for &Part { track, from, row: first, started, estimates } in parts {
+            let rows = track.rows.iter().enumerate().take(first + estimates.len()).skip(from);
+            for (k, row) in rows {
+                let estimate = k.checked_sub(first).map(|at| (estimates, at));
+                let sensor = row.sensor.and_then(|i| model.sensors.get(i)).map(|sensor| sensor.name.as_str());
+                let started = started && k == first;
+                lines.push(Line { track: track.id.as_deref(), row, sensor, estimate, started });
+            }
+        }
+        lines.sort_by_key(|line| line.row.index);
+        match format {
+            Format::Csv => blocks::write(out, &lines, threads, |lines| csv::rows(model, tracks, lines)),
+            Format::Jsonl => blocks::write(out, &lines, threads, |lines| jsonl::rows(model, smoothed, lines)),
+        }
+    }
+}
+
 /// Writes the answers, one for each of the tracks, as one table in the order of the rows. The lines are made on so many threads,
 /// all cores where it is not said, and are the same for any.
 ///
@@ -75,27 +141,14 @@ pub fn write_answers(
     answers: &[Answer],
     threads: Option<NonZeroUsize>,
 ) -> io::Result<()> {
-    let mut lines = Vec::new();
-    for (track, answer) in tracks.tracks.iter().zip(answers) {
-        let end = answer.row + answer.estimates.len();
-        let begin = if answer.from_first { answer.row } else { 0 };
-        for (k, row) in track.rows.iter().enumerate().take(end).skip(begin) {
-            let estimate = k.checked_sub(answer.row).map(|at| (&answer.estimates, at));
-            let sensor = row.sensor.and_then(|i| model.sensors.get(i)).map(|sensor| sensor.name.as_str());
-            let started = answer.started && k == answer.row;
-            lines.push(Line { track: track.id.as_deref(), row, sensor, estimate, started });
-        }
-    }
-    lines.sort_by_key(|line| line.row.index);
-    match format {
-        Format::Csv => {
-            out.write_all(&csv::header(model, tracks)?)?;
-            blocks::write(out, &lines, threads, |lines| csv::rows(model, tracks, lines))?;
-        }
-        Format::Jsonl => {
-            let smoothed = answers.iter().any(|answer| answer.estimates.is_smoothed());
-            blocks::write(out, &lines, threads, |lines| jsonl::rows(model, smoothed, lines))?;
-        }
-    }
+    let smoothed = answers.iter().any(|answer| answer.estimates.is_smoothed());
+    let parts = tracks.tracks.iter().zip(answers).map(|(track, answer)| {
+        let Answer { estimates, row, started, from_first } = answer;
+        let from = if *from_first { *row } else { 0 };
+        Part { track, from, row: *row, started: *started, estimates }
+    });
+    let writer = AnswerWriter { format, model, tracks, smoothed, threads };
+    writer.header(out)?;
+    writer.rows(out, &parts.collect::<Vec<_>>())?;
     out.flush()
 }

@@ -13,7 +13,7 @@ use core::num::NonZeroUsize;
 use core::sync::atomic::{AtomicBool, AtomicUsize};
 use lockstep::Lockstep;
 use pack::{packable, units};
-use workers::each;
+pub(crate) use workers::each;
 
 pub use crate::scalar::InstructionSet;
 

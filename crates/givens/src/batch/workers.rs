@@ -7,7 +7,7 @@ use std::thread::{Builder, available_parallelism, scope};
 
 /// `one` of each item, begun in their order, on so many threads (all cores where it is not said; fewer where the system gives
 /// no more). The answers stand in the order of the items.
-pub(super) fn each<I: Sync, T: Send>(
+pub(crate) fn each<I: Sync, T: Send>(
     items: &[I],
     threads: Option<NonZeroUsize>,
     one: impl Fn(&I) -> T + Sync,

@@ -36,33 +36,9 @@ impl Accuracy {
     /// The same of plain numbers: rows × n means, rows × n × n covariances, and the true states, NaN where one is not
     /// known. Rows that one of them lacks are left out.
     pub fn of_rows(n: usize, mean: &[f64], cov: &[f64], truth: &[f64]) -> Self {
-        let mut sums = vec![(0.0, 0usize, 0usize); n];
-        let (mut nees_sum, mut dof_sum, mut count) = (0.0, 0usize, 0usize);
-        let rows = mean.chunks_exact(n.max(1)).zip(cov.chunks_exact((n * n).max(1)));
-        for ((mean, cov), truth) in rows.zip(truth.chunks_exact(n.max(1))) {
-            let error: Vec<f64> = mean.iter().zip(truth).map(|(m, x)| m - x).collect();
-            for (i, (sum, inside, rows)) in sums.iter_mut().enumerate() {
-                if !error[i].is_nan() {
-                    *sum += error[i] * error[i];
-                    *inside += usize::from(error[i].abs() <= 2.0 * cov[i * n + i].max(0.0).sqrt());
-                    *rows += 1;
-                }
-            }
-            if let Some((value, dof)) = nees(&error, cov) {
-                nees_sum += value;
-                dof_sum += dof;
-                count += 1;
-            }
-        }
-        let per = |total: f64, rows: usize| if rows == 0 { f64::NAN } else { total / rows as f64 };
-        Self {
-            rmse: sums.iter().map(|&(sum, _, rows)| per(sum, rows).sqrt()).collect(),
-            coverage: sums.iter().map(|&(_, inside, rows)| per(inside as f64, rows)).collect(),
-            rows: sums.iter().map(|&(.., rows)| rows).collect(),
-            nees: per(nees_sum, count),
-            nees_dof: per(dof_sum as f64, count),
-            nees_rows: count,
-        }
+        let mut sums = AccuracySums::new(n);
+        sums.add(mean, cov, truth);
+        sums.accuracy()
     }
 
     /// The accuracy over all rows of several runs; `None` without any run.
@@ -89,6 +65,58 @@ impl Accuracy {
                 nees_rows: a.nees_rows + b.nees_rows,
             }
         })
+    }
+}
+
+/// The errors of a run whose rows come a few at a time.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct AccuracySums {
+    /// Of each state the sum of squares, the rows within 2σ, all rows.
+    states: Vec<(f64, usize, usize)>,
+    nees: f64,
+    dof: usize,
+    rows: usize,
+}
+
+impl AccuracySums {
+    /// Nothing yet, of n `states`.
+    pub fn new(states: usize) -> Self {
+        Self { states: vec![(0.0, 0, 0); states], ..Self::default() }
+    }
+
+    /// Adds rows, as [`Accuracy::of_rows`] takes them.
+    pub fn add(&mut self, mean: &[f64], cov: &[f64], truth: &[f64]) {
+        let n = self.states.len();
+        let rows = mean.chunks_exact(n.max(1)).zip(cov.chunks_exact((n * n).max(1)));
+        for ((mean, cov), truth) in rows.zip(truth.chunks_exact(n.max(1))) {
+            let error: Vec<f64> = mean.iter().zip(truth).map(|(m, x)| m - x).collect();
+            for (i, (sum, inside, rows)) in self.states.iter_mut().enumerate() {
+                if !error[i].is_nan() {
+                    *sum += error[i] * error[i];
+                    *inside += usize::from(error[i].abs() <= 2.0 * cov[i * n + i].max(0.0).sqrt());
+                    *rows += 1;
+                }
+            }
+            if let Some((value, dof)) = nees(&error, cov) {
+                self.nees += value;
+                self.dof += dof;
+                self.rows += 1;
+            }
+        }
+    }
+
+    /// The accuracy over the rows so far.
+    pub fn accuracy(&self) -> Accuracy {
+        let per = |total: f64, rows: usize| if rows == 0 { f64::NAN } else { total / rows as f64 };
+        let states = &self.states;
+        Accuracy {
+            rmse: states.iter().map(|&(sum, _, rows)| per(sum, rows).sqrt()).collect(),
+            coverage: states.iter().map(|&(_, inside, rows)| per(inside as f64, rows)).collect(),
+            rows: states.iter().map(|&(.., rows)| rows).collect(),
+            nees: per(self.nees, self.rows),
+            nees_dof: per(self.dof as f64, self.rows),
+            nees_rows: self.rows,
+        }
     }
 }
 

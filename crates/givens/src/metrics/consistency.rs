@@ -36,6 +36,11 @@ impl Consistency {
             dof += est.nis_dof.iter().sum::<usize>();
             nis += est.nis.iter().filter(|x| !x.is_nan()).sum::<f64>();
         }
+        Self::of_sum(nis, dof)
+    }
+
+    /// Of the sum of all NIS, of so many degrees of freedom together.
+    pub fn of_sum(nis: f64, dof: usize) -> Self {
         let k = dof as f64;
         let (low, high) = chi_squared_band(k);
         Self { ratio: nis / k, band: (low / k, high / k), dof }

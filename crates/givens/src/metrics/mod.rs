@@ -4,6 +4,6 @@ mod accuracy;
 mod chi_squared;
 mod consistency;
 
-pub use accuracy::{Accuracy, Truth, nees};
+pub use accuracy::{Accuracy, AccuracySums, Truth, nees};
 pub use chi_squared::{chi_squared_band, chi_squared_cdf, chi_squared_quantile};
 pub use consistency::{Consistency, Verdict};

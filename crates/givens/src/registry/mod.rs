@@ -13,6 +13,7 @@ mod runtime;
 mod sampling;
 mod setting;
 mod stepping;
+mod streaming;
 mod time;
 mod words;
 

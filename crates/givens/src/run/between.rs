@@ -1,7 +1,8 @@
 //! States at any time, beside the recursion over the rows: no other number changes by asking.
 
 use super::own::OwnFilter;
-use super::recorder::{Watch, push, put, told};
+use super::recorder::{push, put, told};
+use super::watch::Watch;
 use crate::filter::{Belief, Form, Over, StepError};
 use crate::model::Observation;
 use crate::scalar::Real;
@@ -9,14 +10,14 @@ use crate::smoother::{History, Smoothed};
 use crate::{Estimates, Row};
 
 /// The states at `times`, in increasing order.
-pub(super) struct Between<'t, T> {
+pub(crate) struct Between<'t, T> {
     times: &'t [f64],
     smoothing: bool,
     sides: Vec<Side<T>>,
     /// Of every time that is a row's, the row.
     rows: Vec<Option<usize>>,
     /// One estimate for each time so far.
-    pub out: Estimates,
+    out: Estimates,
 }
 
 /// The way over one wanted time, from the row before it to the one behind: each has its own, so that no answer depends on
@@ -127,20 +128,24 @@ impl<'t, T: Real> Between<'t, T> {
         Ok(())
     }
 
-    /// The estimates at all times, those of the rows themselves taken from `rows`. Of a run that has failed, up to the row at
-    /// fault; smoothed ones, which need the row behind them, up to the last finished row.
-    pub fn finish(mut self, rows: &Estimates, failed: bool) -> Estimates {
+    /// The estimates at the times so far, those of the rows themselves taken from `rows`; what comes then begins behind them. Of a
+    /// run that has failed, up to the row at fault; smoothed ones, which need the row behind them, up to the last finished row.
+    pub fn cut(&mut self, rows: &Estimates, failed: bool) -> Estimates {
         let end = rows.time.last().copied();
-        for (k, row) in self.rows.iter().enumerate() {
+        let blank = Estimates::new(self.out.states(), self.out.measures(), self.smoothing);
+        let mut out = core::mem::replace(&mut self.out, blank);
+        for (k, row) in self.rows.drain(..).enumerate() {
             if let Some(row) = row.filter(|row| *row < rows.len()) {
-                self.out.copy_row(k, rows, row);
+                out.copy_row(k, rows, row);
             }
         }
+        self.sides.clear();
+        self.times = &self.times[out.len()..];
         if failed && self.smoothing {
-            let kept = self.out.time.iter().take_while(|&&t| end.is_some_and(|end| t <= end)).count();
-            self.out.truncate(kept);
+            let kept = out.time.iter().take_while(|&&t| end.is_some_and(|end| t <= end)).count();
+            out.truncate(kept);
         }
-        self.out
+        out
     }
 }
 

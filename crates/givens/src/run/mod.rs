@@ -1,22 +1,28 @@
 //! A method over a whole trajectory.
 
+mod back;
 mod between;
+mod crossing;
 mod goal;
 mod own;
 mod recorder;
 mod sample;
+mod task;
+mod watch;
 
+pub(crate) use between::Between;
+pub(crate) use crossing::Crossing;
 pub use goal::{Goal, Outcome};
 pub(crate) use own::{OwnFilter, Start, of_kind, scatter, start_own};
-pub(crate) use recorder::{Watch, told, write_cov};
+pub(crate) use recorder::{Recorder, told, write_cov};
 pub use sample::{Draws, Samples, sample};
+pub(crate) use task::Task;
+pub(crate) use watch::Watch;
 
 use crate::filter::{Gaussian, StepError};
 use crate::model::Observation;
 use crate::scalar::Shown;
 use crate::{Computes, Data, Estimates, Row};
-use between::Between;
-use recorder::Recorder;
 
 /// A run that stopped in the middle: what it had finished, and why it went no further.
 #[derive(Clone, Debug, PartialEq)]
@@ -135,14 +141,14 @@ pub(crate) fn run_until<X: Computes<M>, M, H: Observation>(
     let mut outcome = Outcome::new(prior.mean().len(), sensors.measures(), goal);
     let wanted = if matches!(goal, Goal::Filter | Goal::Interval) { at } else { &[] };
     let out = &outcome.estimates;
-    let between =
-        Between::<X::Number>::new(wanted, Estimates::new(out.states(), out.measures(), out.is_smoothed()));
-    let count = if goal == Goal::Filter { 0 } else { rows.len() };
-    match Recorder::start(method.method(), model, sensors, t0, prior, parameters, goal, count, between, watch)
-    {
+    let blank = Estimates::new(out.states(), out.measures(), out.is_smoothed());
+    let between = Between::<X::Number>::new(wanted, blank);
+    let task = Task { method: method.method(), model, sensors, parameters, goal, watch };
+    match Recorder::start(task, Start::Prior(t0, prior), rows.len(), between) {
         Ok(mut recorder) => {
-            recorder.forward(rows, &mut outcome);
-            outcome.at = recorder.finish(&mut outcome);
+            recorder.forward(&rows, 0..rows.len(), &mut outcome);
+            recorder.beyond(&mut outcome);
+            recorder.finish(&mut outcome, None);
         }
         Err(error) => outcome.failure = Some((0, error)),
     }

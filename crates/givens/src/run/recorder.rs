@@ -1,72 +1,55 @@
-//! The loop over the rows: predict, update, write down; then back again for the smoothers.
+//! The loop over the rows: predict, update, write down.
 
 use super::between::Between;
 use super::goal::{Goal, Outcome};
 use super::own::{OwnFilter, Start, scatter, start_own};
-use crate::filter::{Belief, Form, Gaussian, Method, Over, Prior, StepError};
+use super::task::{Rows, Task};
+use crate::filter::{Belief, Form, Method, Over, StepError};
 use crate::model::Observation;
 use crate::scalar::Real;
-use crate::smoother::{FixedPoint, History, Smoothed};
+use crate::smoother::{FixedPoint, History};
 use crate::{Estimates, Row};
-use core::ops::ControlFlow;
-use core::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use core::ops::Range;
 
 /// A filter, what it has recorded, and what it is to find out.
-pub(super) struct Recorder<'t, 'm, X: Method, M, H, T> {
-    pub(super) filter: OwnFilter<'m, X, M, T>,
-    sensors: &'m H,
-    goal: Goal,
+pub(crate) struct Recorder<'t, 'm, X: Method, M, H, T> {
+    pub(crate) filter: OwnFilter<'m, X, M, T>,
+    pub(super) task: Task<'t, 'm, X, M, H>,
     pub(super) history: History<T, Vec<T>>,
     point: Option<FixedPoint<T, Vec<T>>>,
     present: Vec<bool>,
     /// The belief after the last finished row: where the way back begins if the next one fails.
-    last: (Vec<f64>, Vec<f64>, Vec<f64>),
+    pub(super) last: (Vec<f64>, Vec<f64>, Vec<f64>),
     /// A root of a covariance on its way to the estimates.
     spare: Vec<f64>,
-    /// Whether the row at work has been predicted, and so recorded.
-    predicted: bool,
+    pub(super) reached: Reached,
+    /// Rows of the data up to the last one that was finished.
+    pub(crate) finished: usize,
     /// States at other times.
-    between: Between<'t, T>,
-    /// Once it says stop, no further row is begun, on neither way.
-    watch: Watch<'t>,
+    pub(super) between: Between<'t, T>,
 }
 
-/// What others see of a run at work, and have to say to it.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Watch<'t> {
-    /// Cancels the run when it is set.
-    pub cancel: Option<&'t AtomicBool>,
-    /// Counts the rows that are taken in.
-    pub rows: Option<&'t AtomicUsize>,
-}
-
-impl Watch<'_> {
-    pub fn stopped(&self) -> bool {
-        self.cancel.is_some_and(|cancel| cancel.load(Ordering::Relaxed))
-    }
-
-    pub fn count(&self, rows: usize) {
-        if let Some(count) = self.rows {
-            count.fetch_add(rows, Ordering::Relaxed);
-        }
-    }
+/// How far the row at work has come.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Reached {
+    /// No further than the one before: the filter stands there.
+    Nothing,
+    /// Its prediction was begun.
+    Leaving,
+    /// It was predicted, and so recorded.
+    Itself,
 }
 
 impl<'t, 'm, X: Over<M>, M, H: Observation, T: Real> Recorder<'t, 'm, X, M, H, T> {
-    /// A filter with memory of its own for this model, these sensors and `rows` rows.
+    /// A filter with memory of its own, and room for what it records of `rows` rows.
     pub fn start(
-        method: X,
-        model: &'m M,
-        sensors: &'m H,
-        t0: f64,
-        prior: &Gaussian,
-        parameters: &[f64],
-        goal: Goal,
+        task: Task<'t, 'm, X, M, H>,
+        start: Start,
         rows: usize,
         between: Between<'t, T>,
-        watch: Watch<'t>,
     ) -> Result<Self, StepError> {
-        let mut filter = start_own(method, model, sensors, Start::Prior(t0, prior), goal != Goal::Filter)?;
+        let Task { method, model, sensors, parameters, goal, .. } = task;
+        let mut filter = start_own(method, model, sensors, start, goal != Goal::Filter)?;
         if !parameters.is_empty() {
             filter.set_parameters(parameters)?;
         }
@@ -78,18 +61,18 @@ impl<'t, 'm, X: Over<M>, M, H: Observation, T: Real> Recorder<'t, 'm, X, M, H, T
         };
         let square_root = X::Form::SQUARE_ROOT;
         let memory = vec![T::zero(); History::<T, Vec<T>>::memory_len(n, capacity)];
+        let t0 = filter.time();
         let mut recorder = Self {
             filter,
-            sensors,
-            goal,
+            task,
             history: History::new(n, square_root, memory),
             point: None,
             present: vec![false; sensors.measures()],
-            last: (prior.mean().to_vec(), prior.factor().to_vec(), prior.cov().to_vec()),
-            spare: prior.factor().to_vec(),
-            predicted: false,
+            last: (vec![0.0; n], vec![0.0; n * n], vec![0.0; n * n]),
+            spare: vec![0.0; n * n],
+            reached: Reached::Nothing,
+            finished: 0,
             between,
-            watch,
         };
         recorder.begin_point(t0)?;
         Ok(recorder)
@@ -97,53 +80,76 @@ impl<'t, 'm, X: Over<M>, M, H: Observation, T: Real> Recorder<'t, 'm, X, M, H, T
 
     /// Begins the fixed point if its time has come.
     fn begin_point(&mut self, t: f64) -> Result<(), StepError> {
-        if self.point.is_none() && self.goal == Goal::Point(t) {
+        if self.point.is_none() && self.task.goal == Goal::Point(t) {
             let memory = vec![T::zero(); FixedPoint::<T, Vec<T>>::memory_len(self.filter.mean().len())];
             self.point = Some(FixedPoint::begin(&mut self.filter, memory)?);
         }
         Ok(())
     }
 
-    /// Takes in all rows, up to one that fails, and goes on to the times that are wanted behind the last.
-    pub fn forward(&mut self, rows: &[Row], outcome: &mut Outcome) {
-        let (mut before, watch) = (None, self.watch);
-        outcome.estimates.reserve(rows.len());
-        for (k, &row) in rows.iter().take_while(|_| !watch.stopped()).enumerate() {
+    /// Takes in these rows, up to one that fails.
+    pub fn forward(&mut self, rows: &dyn Rows, range: Range<usize>, outcome: &mut Outcome) {
+        let watch = self.task.watch;
+        let mut before = range.start.checked_sub(1).and_then(|k| rows.at(k));
+        outcome.estimates.reserve(range.len());
+        for k in range {
+            let Some(row) = rows.at(k).filter(|_| !watch.stopped()) else { break };
             if let Err(error) = self.row(before, row, &mut outcome.estimates) {
                 outcome.failure = Some((k, error));
                 outcome.failed_at = told(self.filter.mean()).collect();
                 break;
             }
+            self.reached = Reached::Nothing;
+            self.finished = k + 1;
             outcome.log_likelihood += self.filter.innovation().log_likelihood.first();
             watch.count(1);
             before = Some(row);
         }
         let out = &mut outcome.estimates;
         out.truncate(out.len());
+    }
+
+    /// The row of the data that the first of the estimates is of.
+    pub fn first(&self, outcome: &Outcome) -> usize {
+        self.finished.saturating_sub(outcome.estimates.len())
+    }
+
+    /// Takes off the estimates but for the last `keep`, and the states at the wanted times so far.
+    pub fn cut(&mut self, outcome: &mut Outcome, keep: usize) -> (Estimates, Estimates) {
+        let at = self.between.cut(&outcome.estimates, false);
+        let done = outcome.estimates.len().saturating_sub(keep);
+        let kept = outcome.estimates.split_off(done);
+        (core::mem::replace(&mut outcome.estimates, kept), at)
+    }
+
+    /// Goes on to the times that are wanted behind the last row.
+    pub fn beyond(&mut self, outcome: &mut Outcome) {
         if outcome.failure.is_none() {
-            let beyond = self.between.ahead(&self.filter, self.sensors, None, out, watch);
-            outcome.failure = beyond.err().map(|error| (out.len().saturating_sub(1), error));
+            let Task { sensors, watch, .. } = self.task;
+            let beyond = self.between.ahead(&self.filter, sensors, None, &outcome.estimates, watch);
+            outcome.failure = beyond.err().map(|error| (self.finished.saturating_sub(1), error));
         }
     }
 
     /// Takes in one row and writes it to `out`; `before` is the row above it.
     fn row(&mut self, before: Option<Row>, row: Row, out: &mut Estimates) -> Result<(), StepError> {
-        self.predicted = false;
+        let Task { sensors, goal, watch, .. } = self.task;
         // a control holds from its row to the next, the first one also before
         self.filter.set_controls(before.unwrap_or(row).u)?;
         for (there, z) in self.present.iter_mut().zip(row.z) {
             *there = !z.is_nan();
         }
-        self.between.ahead(&self.filter, self.sensors, Some((row, &self.present)), out, self.watch)?;
+        self.between.ahead(&self.filter, sensors, Some((row, &self.present)), out, watch)?;
+        self.reached = Reached::Leaving;
         match &mut self.point {
             Some(point) => point.predict(&mut self.filter, row.time)?,
             None => self.history.predict(&mut self.filter, row.time)?,
         }
-        self.predicted = true;
+        self.reached = Reached::Itself;
         push(&self.filter, &mut out.predicted_mean, &mut out.predicted_cov, &mut self.spare);
         self.filter.set_controls(row.u)?;
-        self.filter.update_present(self.sensors, row.z, &self.present)?;
-        let waiting = matches!(self.goal, Goal::Point(_)) && self.point.is_none();
+        self.filter.update_present(sensors, row.z, &self.present)?;
+        let waiting = matches!(goal, Goal::Point(_)) && self.point.is_none();
         match &mut self.point {
             Some(point) => point.update(&self.filter)?,
             None => self.begin_point(row.time)?,
@@ -153,14 +159,18 @@ impl<'t, 'm, X: Over<M>, M, H: Observation, T: Real> Recorder<'t, 'm, X, M, H, T
             return Ok(());
         }
         self.write(row.time, out);
-        if let Goal::Lag(lag) = self.goal {
+        if let Goal::Lag(lag) = goal {
             let at = out.len() - 1;
             let filter = &self.filter;
-            self.history.smooth(filter, lag.min(at), |age, smoothed| {
+            let done = self.history.smooth(filter, lag.min(at), |age, smoothed| {
                 if age == lag {
                     put::<X::Form, T>(out, at - age, &smoothed.belief);
                 }
-            })?;
+            });
+            if done.is_err() {
+                out.truncate(at);
+            }
+            done?;
         }
         self.keep();
         Ok(())
@@ -199,46 +209,6 @@ impl<'t, 'm, X: Over<M>, M, H: Observation, T: Real> Recorder<'t, 'm, X, M, H, T
         out.nis_dof.push(dof);
         out.nis.push(if dof == 0 { f64::NAN } else { innovation.nis.first() });
         out.log_likelihood.push(innovation.log_likelihood.first());
-    }
-
-    /// Goes back over the finished rows.
-    fn back(&mut self, out: &mut Estimates, failed: bool) -> Result<(), StepError> {
-        let Some(last) = out.len().checked_sub(1) else { return Ok(()) };
-        let steps = match self.goal {
-            Goal::Interval => last,
-            Goal::Lag(lag) => lag.min(last),
-            Goal::Filter | Goal::Point(_) => return Ok(()),
-        };
-        let time = out.time[last];
-        let (mut wrong, between, watch) = (None, &mut self.between, self.watch);
-        let put = |age: usize, smoothed: &Smoothed<T>| {
-            let row = last - age;
-            put::<X::Form, T>(out, row, &smoothed.belief);
-            let filtered = (out.filtered_mean(row), out.filtered_cov(row));
-            wrong = wrong.or(between.back::<X::Form>(row, out.time[row], smoothed, filtered).err());
-            if watch.stopped() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-        };
-        let start = Prior { time, mean: &self.last.0, factor: &self.last.1, cov: &self.last.2 };
-        if failed {
-            self.history.smooth_from::<X::Form, _>(start, usize::from(self.predicted), steps, put)?;
-        } else {
-            self.history.smooth(&self.filter, steps, put)?;
-        }
-        wrong.map_or(Ok(()), Err)
-    }
-
-    /// Goes back, and gives the states at the wanted times.
-    pub fn finish(mut self, outcome: &mut Outcome) -> Estimates {
-        let out = &mut outcome.estimates;
-        if let Err(error) = self.back(out, outcome.failure.is_some()) {
-            // a smoothed covariance that does not exist: the filtered rows are no answer to the question. The record that
-            // failed leads from its row, counted from one less, to the next
-            let row = error.step.saturating_sub(1).min(out.len().saturating_sub(1));
-            let time = out.time.get(row).copied().unwrap_or(error.time);
-            outcome.failure.get_or_insert((row, StepError { time, ..error }));
-            out.truncate(0);
-        }
-        self.between.finish(out, outcome.failure.is_some())
     }
 }
 

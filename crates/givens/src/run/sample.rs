@@ -2,7 +2,10 @@
 
 use super::between::Between;
 use super::goal::{Goal, Outcome};
-use super::recorder::{Recorder, Watch, told};
+use super::own::Start;
+use super::recorder::{Recorder, told};
+use super::task::Task;
+use super::watch::Watch;
 use crate::filter::{Gaussian, Over, StepError};
 use crate::model::Observation;
 use crate::scalar::Real;
@@ -104,20 +107,11 @@ pub fn sample<'a, X: Computes<M>, M, H: Observation>(
     let (n, d, count) = (prior.mean().len(), sensors.measures(), rows.len());
     let mut outcome = Outcome::new(n, d, Goal::Interval);
     let between = Between::<X::Number>::new(&[], Estimates::new(n, d, true));
-    let started = Recorder::start(
-        method.method(),
-        model,
-        sensors,
-        t0,
-        prior,
-        &[],
-        Goal::Interval,
-        count,
-        between,
-        Watch::default(),
-    );
+    let (method, watch) = (method.method(), Watch::default());
+    let task = Task { method, model, sensors, parameters: &[], goal: Goal::Interval, watch };
+    let started = Recorder::start(task, Start::Prior(t0, prior), count, between);
     let drawn = started.map_err(|error| (0, error)).and_then(|mut recorder| {
-        recorder.forward(&rows, &mut outcome);
+        recorder.forward(&rows.as_slice(), 0..count, &mut outcome);
         match outcome.failure {
             Some(failure) => Err(failure),
             None => recorder.draw(&outcome.estimates, draws),

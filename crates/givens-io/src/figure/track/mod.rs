@@ -116,6 +116,8 @@ pub struct StateSeries {
     /// The truth at these times, NaN where it is not known; with it, the error is drawn. Both are lines through what is
     /// known.
     pub truth: Option<Vec<f64>>,
+    /// Where these are only some of the rows: of all of them those whose error is within ±2σ, and those that have one.
+    pub inside: Option<[usize; 2]>,
 }
 
 /// Normalised innovation squared, and the band that holds 95 % of it if the filter is consistent.
@@ -129,4 +131,17 @@ pub struct NisSeries {
     pub lower: Vec<f64>,
     /// The 97.5 % quantile.
     pub upper: Vec<f64>,
+    /// Where these are only some of the rows, what was counted of all.
+    pub all: Option<NisCounts>,
+}
+
+/// What was counted of all rows, where only some are drawn.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct NisCounts {
+    /// Rows with a value within its band, and rows with one.
+    pub inside: [usize; 2],
+    /// Rows of a block.
+    pub block: usize,
+    /// `[time, NIS]`, the mean over each block of rows.
+    pub means: Vec<[f64; 2]>,
 }

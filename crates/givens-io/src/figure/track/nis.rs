@@ -13,6 +13,8 @@ const MOST_BANDS: usize = 4;
 
 /// With more rows than this their mean is drawn too.
 const DENSE: usize = 2000;
+/// Of so many blocks.
+const BLOCKS: usize = 150;
 
 struct Row {
     time: f64,
@@ -48,15 +50,19 @@ pub(super) fn panel(series: &NisSeries, x: Axis) -> Panel {
     marks.push(Mark::new("", colour, disc(dots(&|r| !outside(r)))));
     marks.push(Mark::new("", Colour::VERMILION, disc(dots(&outside))));
     let mut remark = Vec::new();
-    if !judged.is_empty() {
-        let count = judged.iter().filter(|r| inside(r)).count();
-        let share = 100.0 * count as f64 / judged.len() as f64;
+    let counted = [judged.iter().filter(|r| inside(r)).count(), judged.len()];
+    let [count, of] = series.all.as_ref().map_or(counted, |all| all.inside);
+    if of > 0 {
+        let share = 100.0 * count as f64 / of as f64;
         remark.push(format!("{}\u{2009}% within", number::short(share.round())));
     }
     if dense {
         // Dots that fill the panel show nothing any more; their mean does.
-        let block = rows.len() / 150;
-        let shape = Shape::Line { points: means(&rows, block), width: 1.3, dashed: false };
+        let (points, block) = match &series.all {
+            Some(all) => (all.means.clone(), all.block),
+            None => (means(&rows, rows.len() / BLOCKS), rows.len() / BLOCKS),
+        };
+        let shape = Shape::Line { points, width: 1.3, dashed: false };
         marks.push(Mark::new("", Colour::INK, shape));
         remark.push(format!("line: mean of {block} rows"));
     }

@@ -44,11 +44,13 @@ pub(super) fn error(state: &StateSeries, truth: &[f64], x: Axis, look: &Look) ->
     let points: Vec<[f64; 2]> = (0..rows).map(|i| [state.time[i], state.mean[i] - truth[i]]).collect();
     let judged: Vec<usize> =
         (0..rows).filter(|&i| points[i][1].is_finite() && state.std[i].is_finite()).collect();
-    let inside = judged.iter().filter(|&&i| points[i][1].abs() <= 2.0 * state.std[i]).count();
+    let counted =
+        [judged.iter().filter(|&&i| points[i][1].abs() <= 2.0 * state.std[i]).count(), judged.len()];
+    let [inside, judged] = state.inside.unwrap_or(counted);
     let (range, cut) = held(&band, points.iter().map(|p| p[1]));
     let mut remark = cut;
-    if !judged.is_empty() {
-        let share = 100.0 * inside as f64 / judged.len() as f64;
+    if judged > 0 {
+        let share = 100.0 * inside as f64 / judged as f64;
         let within = format!("{}\u{2009}% within ±2σ", number::short(share.round()));
         remark = if remark.is_empty() { within } else { format!("{within} · {remark}") };
     }

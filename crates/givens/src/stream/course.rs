@@ -1,0 +1,84 @@
+//! What is streamed, with the method behind a pointer: all that goes over rows in portions is compiled once.
+
+use crate::filter::Gaussian;
+use crate::filter::{Over, Snapshot, StepError};
+use crate::model::Observation;
+use crate::run::{Between, Crossing, Goal, Outcome, Recorder, Start, Task, Watch, of_kind};
+use crate::scalar::Real;
+use crate::{Data, Estimates};
+use core::ops::Range;
+
+/// A recorder at work on rows of a trajectory.
+pub(super) trait Recording {
+    fn forward(&mut self, rows: &Data, range: Range<usize>, outcome: &mut Outcome);
+    fn beyond(&mut self, outcome: &mut Outcome);
+    fn cut(&mut self, outcome: &mut Outcome, keep: usize) -> (Estimates, Estimates);
+    fn finish(&mut self, outcome: &mut Outcome, from: Option<Crossing<f64>>) -> Option<Crossing<f64>>;
+    fn snapshot(&self) -> Snapshot;
+    /// Rows of the data up to the last one that was finished.
+    fn finished(&self) -> usize;
+}
+
+impl<X: Over<M>, M, H: Observation, T: Real> Recording for Recorder<'_, '_, X, M, H, T> {
+    fn forward(&mut self, rows: &Data, range: Range<usize>, outcome: &mut Outcome) {
+        self.forward(rows, range, outcome);
+    }
+    fn beyond(&mut self, outcome: &mut Outcome) {
+        self.beyond(outcome);
+    }
+    fn cut(&mut self, outcome: &mut Outcome, keep: usize) -> (Estimates, Estimates) {
+        self.cut(outcome, keep)
+    }
+    fn finish(&mut self, outcome: &mut Outcome, from: Option<Crossing<f64>>) -> Option<Crossing<f64>> {
+        self.finish(outcome, from.map(|from| from.of_kind())).map(|first| first.of_kind())
+    }
+    fn snapshot(&self) -> Snapshot {
+        of_kind(self.filter.carried())
+    }
+    fn finished(&self) -> usize {
+        self.finished
+    }
+}
+
+pub(super) type Begun<'t> = Result<Box<dyn Recording + Send + 't>, StepError>;
+
+/// What is streamed.
+#[derive(Clone, Copy)]
+pub(super) struct Course<'s, 't> {
+    /// A recorder that starts here, has room for the records of so many rows, and gives the states at these times.
+    pub begin: &'s (dyn Fn(Start, usize, &'t [f64]) -> Begun<'t> + Sync),
+    pub data: &'t Data,
+    pub prior: &'t Gaussian,
+    pub at: &'t [f64],
+    pub goal: Goal,
+    pub measures: usize,
+    pub watch: Watch<'t>,
+}
+
+impl Course<'_, '_> {
+    pub fn blank(&self) -> Outcome {
+        Outcome::new(self.prior.mean().len(), self.measures, self.goal)
+    }
+}
+
+/// Begins a recorder of a task.
+pub(super) fn begin<'t, X, M, H, T>(
+    task: Task<'t, 't, X, M, H>,
+    start: Start,
+    rows: usize,
+    at: &'t [f64],
+) -> Begun<'t>
+where
+    X: Over<M> + Send + 't,
+    M: Sync,
+    H: Observation + Sync,
+    T: Real + Send + 't,
+{
+    let d = task.sensors.measures();
+    let n = match start {
+        Start::Prior(_, prior) => prior.mean().len(),
+        Start::Snapshot(snapshot) => snapshot.mean.len(),
+    };
+    let blank = Estimates::new(n, d, task.goal != Goal::Filter);
+    Ok(Box::new(Recorder::start(task, start, rows, Between::<T>::new(at, blank))?))
+}

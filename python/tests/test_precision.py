@@ -27,7 +27,7 @@ def is_single(array):
     return np.array_equal(array, array.astype(np.float32).astype(np.float64))
 
 
-@pytest.mark.parametrize("method", ["sr-cd-ckf", "cd-ukf", "sr-cd-ekf", "lskf"])
+@pytest.mark.parametrize("method", ["sr-cd-ckf", "sr-cd-ukf", "sr-cd-ekf", "lskf"])
 @pytest.mark.parametrize("run", [gv.filter, gv.smooth])
 def test_a_run_in_f32_is_that_in_f64_to_its_digits(run, method):
     double = run(MODEL, SENSOR, T, Z[0], prior=PRIOR, method=method)
@@ -80,6 +80,8 @@ def test_what_f32_cannot_keep_is_refused():
     assert 'precision="f64"' in str(caught.value)
     with pytest.raises(gv.MethodError, match="rtol = 1e-9: must be at least 1e-6 in f32"):
         gv.filter(MODEL, SENSOR, T, Z[0], prior=PRIOR, method="sr-cd-ckf2", rtol=1e-9, precision="f32")
+    with pytest.raises(gv.MethodError, match="precision = f32: `cd-ckf` is in covariance form"):
+        gv.filter(MODEL, SENSOR, T, Z[0], prior=PRIOR, method="cd-ckf", precision="f32")
     with pytest.raises(gv.MethodError, match="precision = single: no such choice"):
         gv.filter(MODEL, SENSOR, T, Z[0], prior=PRIOR, precision="single")
 

@@ -4,7 +4,7 @@ use core::num::NonZeroUsize;
 use givens::batch::{Batch, InstructionSet, Track};
 use givens::filter::{Fault, Gaussian, Quantity};
 use givens::model::zoo::{CoordinatedTurn, RangeBearing};
-use givens::registry::{Choice, Precision, Setting, Value, resolve};
+use givens::registry::{Choice, FormName, Precision, Setting, Value, resolve};
 use givens::{Data, Estimates, Goal, Outcome, Row};
 use givens_tests::choices::{choices, continuous_choices};
 use givens_tests::models::Problem;
@@ -47,7 +47,15 @@ fn is_single(est: &Estimates, double: &Estimates) -> bool {
 
 const GOALS: [Goal; 4] = [Goal::Filter, Goal::Interval, Goal::Lag(2), Goal::Point(0.0)];
 
-fn check(name: &str, goal: Goal, found: Outcome, expected: Outcome) {
+fn check(name: &str, choice: &Choice, goal: Goal, found: Outcome, expected: Outcome) {
+    if choice.form == FormName::Covariance {
+        let fault = found.failure.map(|(_, error)| error.fault);
+        assert!(
+            matches!(fault, Some(Fault::Mismatch { why }) if why.contains("f32 is for square roots")),
+            "{name}"
+        );
+        return;
+    }
     let between = apart(&found.at, &expected.at);
     let (found, expected) = match (found.into_result(), expected.into_result()) {
         (Ok(found), Ok(expected)) => (found, expected),
@@ -78,7 +86,7 @@ fn every_discrete_choice_in_f32_is_that_in_f64_to_its_digits() {
                     &[1.0, 20.0],
                 )
             };
-            check(&name, goal, run(&single(&choice)), run(&choice));
+            check(&name, &choice, goal, run(&single(&choice)), run(&choice));
         }
     }
 }
@@ -88,7 +96,7 @@ fn every_continuous_choice_in_f32_is_that_in_f64_to_its_digits() {
     let problem = Continuous::random(112, [3, 2, 2], 5, 0.1);
     for (name, choice) in continuous_choices(3) {
         for goal in GOALS {
-            check(&name, goal, problem.run(&single(&choice), goal), problem.run(&choice, goal));
+            check(&name, &choice, goal, problem.run(&single(&choice), goal), problem.run(&choice, goal));
         }
     }
 }
@@ -116,7 +124,7 @@ fn turns() -> (CoordinatedTurn, RangeBearing, Gaussian, Vec<Data>) {
 fn packs_in_f32_are_the_tracks_alone_and_the_same_for_any_number_of_threads() {
     let (turn, radar, prior, data) = turns();
     let tracks: Vec<_> = data.iter().map(|data| Track::new(&turn, &radar, data, &prior)).collect();
-    for name in ["sr-ckf", "sr-ukf", "sr-ckf5", "sr-qkf", "sr-ekf", "sr-cdkf", "ckf"] {
+    for name in ["sr-ckf", "sr-ukf", "sr-ckf5", "sr-qkf", "sr-ekf", "sr-cdkf"] {
         let double = resolve(name, &[]).unwrap();
         let choice = single(&double);
         for goal in [Goal::Filter, Goal::Interval] {
@@ -171,7 +179,7 @@ fn times_and_gaps_are_kept_in_f64() {
 #[test]
 fn a_filter_by_hand_in_f32_is_its_run_and_goes_on_from_its_snapshot() {
     let (turn, radar, prior, data) = turns();
-    for name in ["sr-ckf", "ukf"] {
+    for name in ["sr-ckf", "sr-ukf"] {
         let choice = single(&resolve(name, &[]).unwrap());
         let est =
             choice.run(&turn, &radar, data[0].rows(), 0.0, &prior, Goal::Filter, &[]).into_result().unwrap();

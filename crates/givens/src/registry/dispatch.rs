@@ -89,7 +89,7 @@ impl Choice {
     /// Does the job with a discrete method; a continuous one is refused.
     pub(super) fn discrete<M: Transition, J: Job<M>>(&self, job: J) -> Result<J::Done, Fault> {
         match self.time_update {
-            TimeName::Transition => Ok(self.over(OneTransition, job)),
+            TimeName::Transition => self.over(OneTransition, job),
             _ => Err(NOT_CONTINUOUS),
         }
     }
@@ -99,7 +99,7 @@ impl Choice {
         match self.time() {
             None => Err(NOT_DISCRETE),
             Some(AnyTime::LevelSet(_)) if self.form == FormName::Covariance => Err(LEVEL_SET_IN_COVARIANCE),
-            Some(time) => Ok(self.over(time, job)),
+            Some(time) => self.over(time, job),
         }
     }
 
@@ -120,7 +120,7 @@ impl Choice {
         }
     }
 
-    fn over<M, J: Job<M>, U>(&self, time: U, job: J) -> J::Done
+    fn over<M, J: Job<M>, U>(&self, time: U, job: J) -> Result<J::Done, Fault>
     where
         U: TimeUpdate<M> + Send + Sync + 'static,
     {
@@ -131,25 +131,25 @@ impl Choice {
         }
     }
 
-    fn with<M, J: Job<M>, R, U>(&self, rule: R, time: U, job: J) -> J::Done
+    fn with<M, J: Job<M>, R, U>(&self, rule: R, time: U, job: J) -> Result<J::Done, Fault>
     where
         R: Rule + Send + Sync + 'static,
         U: TimeUpdate<M> + Send + Sync + 'static,
     {
-        let (block, single) = (self.block, self.precision == Precision::F32);
-        match self.form {
-            FormName::Covariance => {
-                let method = Parts::<R, Covariance, U>::new(rule, block, time);
-                if single { job.with(Single(method)) } else { job.with(method) }
-            }
-            FormName::SquareRoot => {
-                let method = Parts::<R, SquareRoot, U>::new(rule, block, time);
-                if single { job.with(Single(method)) } else { job.with(method) }
-            }
+        let root = Parts::<R, SquareRoot, U>::new(rule, self.block, time);
+        let covariance = Parts::<R, Covariance, U>::new(rule, self.block, time);
+        match (self.form, self.precision) {
+            (FormName::Covariance, Precision::F64) => Ok(job.with(covariance)),
+            (FormName::Covariance, Precision::F32) => Err(SINGLE_IN_COVARIANCE),
+            (FormName::SquareRoot, Precision::F64) => Ok(job.with(root)),
+            (FormName::SquareRoot, Precision::F32) => Ok(job.with(Single(root))),
         }
     }
 }
 
+/// A variance has twice the digits of its root, and f32 too few of them: none is compiled.
+const SINGLE_IN_COVARIANCE: Fault =
+    Fault::Mismatch { why: "precision = f32 is for square roots; form = covariance is not for it" };
 const NOT_CONTINUOUS: Fault =
     Fault::Mismatch { why: "the method is a continuous-time one, and the model is discrete" };
 const NOT_DISCRETE: Fault =

@@ -107,6 +107,12 @@ fn together(entry: &Entry, choice: &Choice, settings: &[Setting]) -> Result<(), 
             format!("time_update = level-set: `{name}` is in covariance form, the level set a square root");
         return refuse(set("time_update"), message, "name the method lskf, or set form = square-root");
     }
+    if choice.precision == Precision::F32 && choice.form == FormName::Covariance {
+        let message = format!(
+            "precision = f32: `{name}` is in covariance form, which needs twice the digits of a root"
+        );
+        return refuse(set("precision"), message, "set form = square-root, or leave `precision` out");
+    }
     if entry.adaptive && !choice.time_update.solves() {
         let message = format!(
             "time_update = {}: `{name}` adapts its steps to the error, and this takes equal ones",

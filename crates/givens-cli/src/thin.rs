@@ -62,7 +62,9 @@ impl Thinned {
             keep.extend(self.outliers(est, &rows));
             keep.sort_unstable();
             keep.dedup();
-            keep.into_iter().for_each(|row| self.kept.push(est, row));
+            for row in keep {
+                self.kept.push(est, row);
+            }
         }
         self.taken += est.len();
     }

@@ -25,6 +25,6 @@ pub fn room_for_rows(rows: usize, each: usize) -> Result<()> {
         "`t` has {rows} times: their estimates, {each} bytes each, need {:.3e} bytes, more than there is memory for",
         bytes as f64
     );
-    let help = "step a filter by hand (gv.filter(…) without rows), or run the command `givens`, which holds few rows at once";
+    let help = "step a `gv.Filter` by hand, or run the command `givens`, which holds few rows at once";
     Err(Input::new("t", message).help(help).into())
 }

@@ -77,8 +77,8 @@ fn chains(name: &str, rows: usize) -> Folder {
 
 // two tracks in one table are held whole: ckf goes in no pack, and gives the numbers of a track alone
 fn alike(folder: &Folder, command: &str, ending: &str) {
-    let alone = folder.run(&format!("{} one.csv --method ckf --format {ending}", command)).good().stdout;
-    let beside = folder.run(&format!("{} two.csv --method ckf --format {ending}", command)).good().stdout;
+    let alone = folder.run(&format!("{command} one.csv --method ckf --format {ending}")).good().stdout;
+    let beside = folder.run(&format!("{command} two.csv --method ckf --format {ending}")).good().stdout;
     let (named, none) =
         if ending == "csv" { (",one,", ",") } else { ("\"track_id\":\"one\"", "\"track_id\":null") };
     let beside: Vec<String> =

@@ -111,7 +111,7 @@ fn turns() -> (CoordinatedTurn, RangeBearing, Gaussian, Vec<Data>) {
         for row in 1..=20 - k {
             let t = row as f64;
             let (x, y) = (1000.0 + 290.0 * t + k as f64, 1000.0 - 9.0 * t * t);
-            let bearing = if (row + k) % 7 == 0 { f64::NAN } else { y.atan2(x) };
+            let bearing = if (row + k).is_multiple_of(7) { f64::NAN } else { y.atan2(x) };
             data.push(t, &[x.hypot(y), bearing]).unwrap();
         }
         data

@@ -57,7 +57,7 @@ fn wrong_methods_and_options() {
                 "precision",
                 NONE,
                 "filter model.toml data.csv -o out.csv --set precision=f16",
-                &["--set precision=f16: no such choice", "did you mean `f64`?"],
+                &["--set precision=f16: no such choice", "one of: f64, f32"],
             ),
             (
                 "no_value",

@@ -87,7 +87,8 @@ impl<X: Method, M, T: Real, B: AsRef<[T]>> Filter<'_, X, M, T, B> {
     pub fn carried(&self) -> Carried<'_, T> {
         let Sizes { states: n, controls, parameters, .. } = self.layout.sizes;
         let (moved, rest) = self.memory.as_ref().split_at(self.layout.moved_len());
-        let (u, rest) = rest[self.layout.shape.table..].split_at(controls);
+        let skip = self.layout.kept + self.layout.shape.table;
+        let (u, rest) = rest[skip..].split_at(controls);
         let (p, rest) = rest.split_at(parameters);
         Carried {
             time: self.time,

@@ -2,11 +2,11 @@
 
 mod not_finite;
 mod remedy;
+mod single;
 
 use crate::filter::{Fault, Halt, Matrix};
 use crate::ode::Solver;
-use crate::registry::{Choice, FormName, Kind, Precision};
-use crate::scalar::Shown;
+use crate::registry::{Choice, FormName, Kind};
 
 /// Who speaks: options are set in one way on the command line and in another in Python.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -82,17 +82,13 @@ impl Explain<'_> {
     /// A fault with the model's own names, of this method if it has one.
     pub fn told(&self, choice: Option<&Choice>, fault: &Fault) -> Told {
         let component = self.component(fault).map(str::to_owned);
-        let (what, remedy) = self.words(choice, fault);
-        let remedy =
-            if rounded(choice, fault) {
-                let double = self.face.set("precision", "f64");
-                Some(remedy.map_or_else(
-                    || double.clone(),
-                    |remedy| format!("{remedy}; or compute in f64 ({double})"),
-                ))
-            } else {
-                remedy
-            };
+        let (what, remedy) = match *fault {
+            Fault::Unrepresentable { quantity, component, value } => {
+                (self.unrepresentable(quantity, component, value), Some("choose other units".to_owned()))
+            }
+            _ => self.words(choice, fault),
+        };
+        let remedy = if single::rounded(choice, fault) { Some(self.or_in_double(remedy)) } else { remedy };
         Told { what, remedy, component }
     }
 
@@ -150,19 +146,6 @@ impl Explain<'_> {
                 let form = set("form", "square-root");
                 let remedy = format!("give it a std above zero, or try the square-root form ({form})");
                 (format!("{what} that the others do not say, to the digits that a covariance keeps"), remedy)
-            }
-            Fault::Unrepresentable { quantity, component, value } => {
-                let of = match not_finite::of_what(quantity) {
-                    Some(not_finite::Of::State) => self.state(component),
-                    Some(not_finite::Of::Measure) => self.measure(component),
-                    None => (component + 1).to_string(),
-                };
-                let what = format!(
-                    "the {} of {of}, {}, is beyond what f32 can keep (1.2e-38 to 3.4e38)",
-                    quantity.name(),
-                    Shown(value)
-                );
-                (what, "choose other units".to_owned())
             }
             Fault::Indistinct { component } => {
                 let what = format!(
@@ -236,21 +219,6 @@ impl Explain<'_> {
         };
         (what, Some(remedy))
     }
-}
-
-/// Whether more digits than those of `f32` may help.
-fn rounded(choice: Option<&Choice>, fault: &Fault) -> bool {
-    let of_numbers = matches!(
-        fault,
-        Fault::NotPositive { .. }
-            | Fault::SingularInnovation { .. }
-            | Fault::NotFinite { .. }
-            | Fault::Unrepresentable { .. }
-            | Fault::Indistinct { .. }
-            | Fault::Solver { .. }
-            | Fault::Unresolved { .. }
-    );
-    of_numbers && choice.is_some_and(|choice| choice.precision == Precision::F32)
 }
 
 /// Whether the pivots of a matrix are measures.

@@ -5,7 +5,7 @@ from __future__ import annotations
 import givens as gv
 import numpy as np
 from contest import WORKLOAD, report, rows, serve
-from problems import *  # noqa: F403
+from problems import *
 
 
 def plane_problem():

@@ -1,6 +1,6 @@
 //! The contestants' programs: built here, or found missing with a word on how to make them.
 
-use super::options::Options;
+use super::options::{Options, Task};
 use super::table::Contestant;
 use crate::say;
 use std::path::{Path, PathBuf};
@@ -28,7 +28,7 @@ pub fn all(root: &Path, target: &Path, options: &Options) -> Built {
         python: if options.python { Ok(()) } else { Err("left out (--no-python)".to_owned()) },
         environments,
     };
-    if options.prepare && options.python {
+    if options.task == Task::Prepare && options.python {
         for name in environments_of(root) {
             environment(root, &built.environments, &name).unwrap_or_else(|reason| say(&reason));
         }
@@ -36,12 +36,13 @@ pub fn all(root: &Path, target: &Path, options: &Options) -> Built {
     built
 }
 
-fn cargo() -> Command {
+/// The cargo that called us.
+pub fn cargo() -> Command {
     Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
 }
 
 /// Runs a command; in words why it failed.
-fn done(command: &mut Command, what: &str) -> Result<(), String> {
+pub fn done(command: &mut Command, what: &str) -> Result<(), String> {
     match command.status() {
         Ok(status) if status.success() => Ok(()),
         Ok(status) => Err(format!("{what} failed: {status}")),
@@ -51,8 +52,17 @@ fn done(command: &mut Command, what: &str) -> Result<(), String> {
 
 /// givens, in its release profile.
 pub fn ours(root: &Path, target: &Path) -> Result<PathBuf, String> {
+    ours_with(root, target, &[])
+}
+
+/// The same with what the scaling study needs.
+pub fn ours_for_scaling(root: &Path, target: &Path) -> Result<PathBuf, String> {
+    ours_with(root, target, &["--features", "scaling"])
+}
+
+fn ours_with(root: &Path, target: &Path, words: &[&str]) -> Result<PathBuf, String> {
     let (package, mut build) = ("givens-benchmarks", cargo());
-    build.current_dir(root).args(["build", "--release", "--quiet", "--package", package]);
+    build.current_dir(root).args(["build", "--release", "--quiet", "--package", package]).args(words);
     done(&mut build, "building givens")?;
     Ok(target.join("release").join(package))
 }

@@ -7,12 +7,13 @@ mod machine;
 mod options;
 mod report;
 mod rounds;
-mod spread;
+mod scaling;
+mod size;
 mod summary;
 mod table;
 
 use crate::say;
-use options::Options;
+use options::{Options, Task};
 use rounds::{Runner, Standing};
 use std::path::{Path, PathBuf};
 use table::{Contestant, Table, Workload};
@@ -39,10 +40,13 @@ pub fn run(root: &Path, words: &[&str]) -> bool {
 fn measured(root: &Path, words: &[&str]) -> Result<(), String> {
     let options = Options::parse(words)?;
     let table = Table::read(&root.join("benchmarks/contestants.toml"))?;
-    options.check(&table)?;
     let target = target(root);
+    if matches!(options.task, Task::Scaling | Task::ScalingAndBuild) {
+        return scaling::run(root, &target, &options);
+    }
+    options.check(&table)?;
     let built = build::all(root, &target, &options);
-    if options.prepare {
+    if options.task == Task::Prepare {
         return Ok(());
     }
     let before = machine::load();

@@ -1,6 +1,7 @@
 //! The contestants' programs: built here, or found missing with a word on how to make them.
 
-use super::options::{Options, Task};
+use super::options::Options;
+use super::python;
 use super::table::Contestant;
 use crate::say;
 use std::path::{Path, PathBuf};
@@ -20,20 +21,42 @@ pub struct Built {
 pub fn all(root: &Path, target: &Path, options: &Options) -> Built {
     let environments = target.join("benchmarks");
     let left_out = || Err("left out (--no-peers)".to_owned());
-    let built = Built {
+    Built {
         root: root.to_owned(),
         ours: ours(root, target),
         peers: if options.peers { peers(root, &environments) } else { left_out() },
         cpp: if options.peers { cpp(root, &environments) } else { left_out() },
         python: if options.python { Ok(()) } else { Err("left out (--no-python)".to_owned()) },
         environments,
-    };
-    if options.task == Task::Prepare && options.python {
-        for name in environments_of(root) {
-            environment(root, &built.environments, &name).unwrap_or_else(|reason| say(&reason));
+    }
+}
+
+/// Builds what the options want, makes the environments, and tells of each how that went.
+pub fn prepare(root: &Path, target: &Path, options: &Options) -> Result<(), String> {
+    let built = all(root, target, options);
+    let programs =
+        [("givens", &built.ours), ("the Rust peers", &built.peers), ("the C++ filters", &built.cpp)];
+    let mut went: Vec<(String, Result<(), String>)> = Vec::new();
+    for (name, program) in programs {
+        went.push((name.to_owned(), program.as_ref().map(|_| ()).map_err(Clone::clone)));
+    }
+    for name in python::environments_of(root).iter().filter(|_| options.python) {
+        say(&format!("the Python environment `{name}`"));
+        let made = python::environment(root, &built.environments, name);
+        went.push((format!("the Python environment `{name}`"), made));
+    }
+    let mut missing = 0;
+    for (name, outcome) in &went {
+        match outcome {
+            Ok(()) => say(&format!("ready: {name}")),
+            Err(reason) => {
+                missing += 1;
+                say(&format!("not there: {name}: {reason}"));
+            }
         }
     }
-    built
+    let word = "a race would go on without them, and name them on its page";
+    if missing == 0 { Ok(()) } else { Err(format!("{missing} of {} are not there; {word}", went.len())) }
 }
 
 /// The cargo that called us.
@@ -92,26 +115,6 @@ fn cpp(root: &Path, environments: &Path) -> Result<PathBuf, String> {
     build.args(["-isystem", "/usr/include/eigen3", "-o"]).arg(&program).arg(sources.join("main.cpp"));
     done(&mut build, "compiling the C++ filters (a C++ compiler and Eigen 3.4, libeigen3-dev)")?;
     Ok(program)
-}
-
-/// Every environment has its requirements beside the scripts.
-fn environments_of(root: &Path) -> Vec<String> {
-    let files = std::fs::read_dir(root.join("benchmarks/python")).into_iter().flatten().flatten();
-    let names = files.map(|file| file.file_name().to_string_lossy().into_owned());
-    names.filter_map(|name| name.strip_suffix(".txt").map(str::to_owned)).collect()
-}
-
-/// Makes an environment and installs its requirements.
-fn environment(root: &Path, environments: &Path, name: &str) -> Result<(), String> {
-    let folder = environments.join(name);
-    let requirements = root.join("benchmarks/python").join(format!("{name}.txt"));
-    let interpreter = folder.join("bin/python");
-    if !interpreter.exists() {
-        done(Command::new("python3").args(["-m", "venv"]).arg(&folder), "a Python environment")?;
-    }
-    let mut install = Command::new(interpreter);
-    install.current_dir(root).args(["-m", "pip", "install", "--quiet", "--requirement"]).arg(&requirements);
-    done(&mut install, &format!("installing {}", requirements.display()))
 }
 
 impl Built {

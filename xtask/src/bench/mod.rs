@@ -5,6 +5,7 @@ mod build;
 mod contestant;
 mod machine;
 mod options;
+mod python;
 mod report;
 mod rounds;
 mod scaling;
@@ -45,10 +46,10 @@ fn measured(root: &Path, words: &[&str]) -> Result<(), String> {
         return scaling::run(root, &target, &options);
     }
     options.check(&table)?;
-    let built = build::all(root, &target, &options);
     if options.task == Task::Prepare {
-        return Ok(());
+        return build::prepare(root, &target, &options);
     }
+    let built = build::all(root, &target, &options);
     let before = machine::load();
     let inputs = root.join("benchmarks/inputs");
     let mut races = Vec::new();

@@ -1,11 +1,11 @@
 //! The figures: both axes logarithmic, medians with their quartiles.
 
-use super::study::{Besides, Series, Study};
+use super::study::{Besides, Point, Series, Study};
 use givens_io::figure::{Axis, Block, Colour, Figure, Grid, Mark, Panel, Scale, Shape};
 
-const COLOURS: [Colour; 6] =
-    [Colour::BLUE, Colour::VERMILION, Colour::GREEN, Colour::ORANGE, Colour::PURPLE, Colour::SKY];
 const GUIDES: [Colour; 2] = [Colour::INK, Colour::GREY];
+/// Opacity of what lies between the quartiles.
+const QUARTILES: u8 = 56;
 
 /// The study's.
 pub fn figure(study: &Study) -> Figure {
@@ -27,12 +27,6 @@ fn axis(label: String, sizes: &[usize]) -> Axis {
     Axis { label, scale: Scale::Log, ticks, ..Axis::default() }
 }
 
-fn panel(study: &Study, label: &str, marks: Vec<Mark>) -> Panel {
-    let x = axis(study.x.to_owned(), &study.sizes());
-    let y = axis(label.to_owned(), &[]);
-    Panel { x, y, marks, ..Panel::default() }
-}
-
 fn times(study: &Study) -> Panel {
     let mut marks = Vec::new();
     for (guide, colour) in study.guides.iter().zip(GUIDES) {
@@ -40,26 +34,28 @@ fn times(study: &Study) -> Panel {
         let points = study.sizes().iter().filter_map(point).collect();
         marks.push(Mark::new(&guide.name, colour, Shape::Line { points, width: 1.1, dashed: true }));
     }
-    for (series, colour) in study.series.iter().zip(COLOURS) {
-        let of = |point: &super::study::Point| Some((point.x as f64, point.time?));
+    for (series, colour) in study.series.iter().zip((0..).map(Colour::series)) {
+        let of = |point: &Point| Some((point.x as f64, point.time?));
         let times: Vec<_> = series.points.iter().filter_map(of).collect();
         let rows = times.iter().map(|(x, time)| [*x, time.lower / 1e3, time.upper / 1e3]).collect();
-        marks.push(Mark::new("", colour, Shape::Band { rows }));
+        marks.push(Mark::new("", colour.faded(QUARTILES), Shape::Band { rows }));
         let points = times.iter().map(|(x, time)| [*x, time.median / 1e3]).collect();
         marks.extend(line(series.name, colour, points));
     }
-    panel(study, &format!("time of {}, µs", study.y), marks)
+    let (x, y) = (axis(study.x.to_owned(), &study.sizes()), axis(format!("time of {}, µs", study.y), &[]));
+    Panel { x, y, marks, ..Panel::default() }
 }
 
 fn speed_up(study: &Study) -> Panel {
     let sizes = study.sizes();
     let ideal = sizes.iter().map(|&x| [x as f64, x as f64]).collect();
     let mut marks = vec![Mark::new("", GUIDES[0], Shape::Line { points: ideal, width: 1.1, dashed: true })];
-    for (series, colour) in study.series.iter().zip(COLOURS) {
+    for (series, colour) in study.series.iter().zip((0..).map(Colour::series)) {
         let point = |&x: &usize| Some([x as f64, faster(series, x)?]);
         marks.extend(line("", colour, sizes.iter().filter_map(point).collect()));
     }
-    panel(study, "times as fast as one thread", marks)
+    let (x, y) = (axis(study.x.to_owned(), &sizes), axis("times as fast as one thread".to_owned(), &sizes));
+    Panel { x, y, marks, ..Panel::default() }
 }
 
 /// How many times faster than the first of its series.

@@ -34,7 +34,7 @@ pub fn study(inputs: &Inputs) -> Result<Study, Failure> {
             })?,
         ],
         guides: vec![Guide {
-            name: "all cores of use".to_owned(),
+            name: "sr-ckf, no thread wasted".to_owned(),
             at: Box::new(|series, threads| Some(series.first()?.at(1)?.median / threads as f64)),
         }],
         besides: Besides::SpeedUp,

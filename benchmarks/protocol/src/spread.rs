@@ -36,7 +36,8 @@ pub fn duration(ns: f64) -> String {
     let (value, unit) = match ns {
         ns if ns < 1e3 => return format!("{ns:.0} ns"),
         ns if ns < 1e6 => (ns / 1e3, "µs"),
-        ns => (ns / 1e6, "ms"),
+        ns if ns < 1e9 => (ns / 1e6, "ms"),
+        ns => (ns / 1e9, "s"),
     };
     let digits = 2_usize.saturating_sub(value.log10().floor().max(0.0) as usize);
     format!("{value:.digits$} {unit}")
@@ -59,5 +60,6 @@ mod tests {
         assert_eq!(duration(1234.0), "1.23 µs");
         assert_eq!(duration(45_670.0), "45.7 µs");
         assert_eq!(duration(1.234e8), "123 ms");
+        assert_eq!(duration(3.024e9), "3.02 s");
     }
 }

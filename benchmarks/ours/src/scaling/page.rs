@@ -48,8 +48,9 @@ fn besides(study: &Study, x: usize) -> Vec<String> {
         Besides::Cube => {
             let Some(time) = study.series.first().and_then(|series| series.at(x)) else { return Vec::new() };
             let over = |guide: &super::study::Guide| Some(time.median / (guide.at)(&study.series, x)?);
-            let by_guide = study.guides.first().and_then(over).map(|ratio| format!("{ratio:.1}"));
-            core::iter::once(format!("{:.2} ns", time.median / size.powi(3))).chain(by_guide).collect()
+            let by = |guide| over(guide).map_or("–".to_owned(), |ratio| format!("{ratio:.1}"));
+            let cube = format!("{:.2} ns", time.median / size.powi(3));
+            core::iter::once(cube).chain(study.guides.first().map(by)).collect()
         }
         Besides::SpeedUp => {
             let one =

@@ -14,6 +14,8 @@ use givens_core::model::{At, Transition};
 const SIZES: [usize; 12] = [2, 3, 5, 10, 20, 30, 50, 100, 200, 300, 500, 1000];
 /// Derivatives of second order in as many directions as there are states take longer than a page is worth.
 const MOST_IN_CONTINUOUS_TIME: usize = 100;
+/// From here on the cube may be compared with.
+const LARGE: usize = 10;
 /// Seconds between rows.
 const GAP: f64 = 0.05;
 
@@ -41,9 +43,12 @@ pub fn study(_: &Inputs) -> Result<Study, Failure> {
         guides: vec![
             Guide {
                 name: format!("{TEXTBOOK:.1} n³ operations at {peak:.1} GFLOP/s"),
-                at: Box::new(move |_, n| Some(TEXTBOOK * cube(n) / peak)),
+                at: Box::new(move |_, n| (n >= LARGE).then(|| TEXTBOOK * cube(n) / peak)),
             },
-            Guide { name: "n³".to_owned(), at: Box::new(|series, n| Some(cube(n) * last(series)?)) },
+            Guide {
+                name: "n³".to_owned(),
+                at: Box::new(|series, n| Some(cube(n) * last(series).filter(|_| n >= LARGE)?)),
+            },
         ],
         besides: Besides::Cube,
     })

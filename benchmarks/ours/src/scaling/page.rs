@@ -37,7 +37,7 @@ pub fn section(study: &Study) -> String {
 
 fn cell(time: &Spread) -> String {
     let half = 50.0 * (time.upper - time.lower) / time.median;
-    format!("{} ±{half:.0} %", duration(time.median))
+    format!("{} ±{half:.1} %", duration(time.median))
 }
 
 /// What the study has besides the times, at one size.

@@ -1,4 +1,4 @@
-"""cd_dynamax: its unscented filter by the moment equations, alpha = 1, beta = 0, kappa = 0; equal steps, or adapted ones."""
+"""cd_dynamax: its unscented filter by the moment equations, alpha = 1, beta = 0, kappa = 0; steps equal or adapted."""
 
 from __future__ import annotations
 
@@ -8,11 +8,10 @@ import jax_problems as jp
 import diffrax
 import jax
 import jax.numpy as jnp
-import numpy as np
 from cd_dynamax import ParamsCDNLGSSM, UKFHyperParams, cdnlgssm_filter
 from cd_dynamax.src.continuous_discrete_nonlinear_gaussian_ssm import cdnlgssm_utils as parts
 from contest import CONTESTANT, report, rows, serve
-from problems import *  # noqa: F403
+from problems import *
 from reference import points
 
 

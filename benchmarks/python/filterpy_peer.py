@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from contest import CONTESTANT, WORKLOAD, report, rows, serve
 from filterpy.kalman import CubatureKalmanFilter, MerweScaledSigmaPoints, UnscentedKalmanFilter
-from problems import *  # noqa: F403
+from problems import *
 
 
 def filter_of(f, h, q, r, mean, cov):

@@ -1,11 +1,11 @@
-"""givens from Python: functions in NumPy, traced once; `gv.filter` and `gv.smooth` over a whole trajectory."""
+"""givens from Python: functions in NumPy, traced once; `gv.filter` and `gv.smooth` over trajectories, in one thread."""
 
 from __future__ import annotations
 
 import givens as gv
 import numpy as np
-from contest import WORKLOAD, report, rows, serve
-from problems import *  # noqa: F403
+from contest import WORKLOAD, report, rows, serve, tracks
+from problems import *
 
 
 def plane_problem():
@@ -19,7 +19,8 @@ def plane_problem():
 
     model = gv.Transition(step, noise_cov=PLANE_Q, state=["x", "vx", "y", "vy", "w"])
     sensor = gv.Sensor(radar, measures=["range", "bearing"], std=np.sqrt(np.diag(PLANE_R)))
-    return model, sensor, rows("plane"), 1.0, PLANE_MEAN, PLANE_COV, {"method": "sr-ckf"}, 10
+    z = tracks() if WORKLOAD == "W2" else rows("plane")
+    return model, sensor, z, 1.0, PLANE_MEAN, PLANE_COV, {"method": "sr-ckf"}, 10
 
 
 def space_problem():
@@ -38,13 +39,17 @@ def space_problem():
 
 
 model, sensor, z, gap, mean, cov, method, every = space_problem() if WORKLOAD == "P1" else plane_problem()
-t, prior = gap * np.arange(1.0, len(z) + 1), gv.Gaussian(mean, cov=cov)
+t, prior = gap * np.arange(1.0, z.shape[-2] + 1), gv.Gaussian(mean, cov=cov)
 run = gv.smooth if WORKLOAD == "W4" else gv.filter
 
 
 def go():
-    return run(model, sensor, t, z, prior=prior, t0=0.0, **method)
+    return run(model, sensor, t, z, prior=prior, t0=0.0, threads=1, **method)
 
 
 est = go()
-serve("givens numpy", len(z), report(est.mean, est.cov, every=every), go)
+if z.ndim == 3:
+    result, steps = report(est.mean[:, -1], est.cov[:, -1], every=1), z.shape[0] * z.shape[1]
+else:
+    result, steps = report(est.mean, est.cov, every=every), len(z)
+serve("givens numpy", steps, result, go)

@@ -8,7 +8,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-from problems import *  # noqa: F403
+from problems import *
 from reference import discrete, ito_taylor, moment_ode, smoothed, update
 
 OUT = Path(__file__).parents[1] / "inputs"

@@ -19,7 +19,12 @@ def points(mean, cov):
 
 def dynamax():
     """Its first row is measured before it is predicted: its prior is ours, predicted."""
-    from dynamax.nonlinear_gaussian_ssm import ParamsNLGSSM, UKFHyperParams, unscented_kalman_filter, unscented_kalman_smoother
+    from dynamax.nonlinear_gaussian_ssm import (
+        ParamsNLGSSM,
+        UKFHyperParams,
+        unscented_kalman_filter,
+        unscented_kalman_smoother,
+    )
 
     images = np.asarray(f(jnp.asarray(points(mean, cov))))
     ahead = images.mean(0)
@@ -39,7 +44,7 @@ def dynamax():
 
 
 def cuthbert():
-    """cuthbertlib's square-root steps with its cubature."""
+    """Steps of cuthbertlib in square-root form, with its cubature."""
     from cuthbertlib.kalman import filtering, smoothing
     from cuthbertlib.quadrature import cubature
     from cuthbertlib.quadrature.linearize import functional
@@ -76,7 +81,7 @@ packages, run = {"dynamax": dynamax, "cuthbert": cuthbert}[CONTESTANT]()
 if z.ndim == 3:
     whole = jax.vmap(run)
 
-    def run(z):  # noqa: F811
+    def run(z):
         m, p = whole(z)
         return m[:, -1], p[:, -1]
 

@@ -19,7 +19,9 @@ def plane_step(x):
     w = x[4]
     s, c = sin(w), cos(w)
     a, b = s / w, (1.0 - c) / w
-    return np.array([x[0] + a * x[1] - b * x[3], c * x[1] - s * x[3], x[2] + b * x[1] + a * x[3], s * x[1] + c * x[3], w])
+    return np.array(
+        [x[0] + a * x[1] - b * x[3], c * x[1] - s * x[3], x[2] + b * x[1] + a * x[3], s * x[1] + c * x[3], w]
+    )
 
 
 def plane_radar(x):

@@ -81,7 +81,7 @@ def jacobian(x):
 
 
 def ito_taylor(mean, cov, rows, gap, substeps):
-    """Ito and Taylor's step of order 1.5 (docs/algorithms.md C4, C5, simplified); the drift has no curvature along a noise."""
+    """Step of order 1.5 (docs/algorithms.md C4, C5, simplified) of a drift that has no curvature along a noise."""
     filtered, h = [], gap / substeps
     g = np.sqrt(SPACE_K)
     for z in rows:

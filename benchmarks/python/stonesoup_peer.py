@@ -6,7 +6,7 @@ from datetime import datetime, timedelta
 
 import numpy as np
 from contest import WORKLOAD, lacks, report, rows, serve
-from problems import *  # noqa: F403
+from problems import *
 from stonesoup.base import Property
 from stonesoup.models.base import GaussianModel
 from stonesoup.models.measurement.base import MeasurementModel

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from contest import CONTESTANT, WORKLOAD, report, rows, serve
-from problems import *  # noqa: F403
+from problems import *
 from turbo_ckf import TurboCKF, TurboSRCKF
 
 plane = (plane_steps, plane_radars, PLANE_Q, PLANE_R, PLANE_MEAN, PLANE_COV)

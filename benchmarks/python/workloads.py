@@ -5,7 +5,7 @@ from __future__ import annotations
 import jax_problems as jp
 import numpy as np
 from contest import WORKLOAD, rows, tracks
-from problems import *  # noqa: F403
+from problems import *
 
 
 def discrete():

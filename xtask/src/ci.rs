@@ -10,7 +10,11 @@ use std::time::Instant;
 /// build, tests and the wheel share their build.
 const STEPS: &[Step] = &[
     Step::cargo("format", "fmt --all --check"),
-    Step::cargo("lints", "clippy --workspace --all-targets --features givens-tests/reports -- -D warnings"),
+    Step::cargo("format of the peers", "fmt --manifest-path benchmarks/peers/Cargo.toml --check"),
+    Step::cargo(
+        "lints",
+        "clippy --workspace --all-targets --features givens-tests/reports,givens-benchmarks/scaling -- -D warnings",
+    ),
     Step::cargo("documentation", "doc --workspace --no-deps").with_env(&[("RUSTDOCFLAGS", "-D warnings")]),
     Step::cargo("givens-core without std", "build -p givens-core --no-default-features"),
     Step::cargo("build", "test --workspace --no-run"),
@@ -26,13 +30,19 @@ const STEPS: &[Step] = &[
         "python: installation",
         "-m pip install -q --no-index --no-deps --find-links target/python/wheels givens",
     ),
-    Step::python("python: lints", "-m ruff check python"),
-    Step::python("python: layout", "-m ruff format --check python"),
+    Step::python("python: lints", "-m ruff check python benchmarks/python"),
+    Step::python("python: layout", "-m ruff format --check python benchmarks/python"),
     Step::python("python: types", "-m mypy --strict python/givens python/examples"),
     Step::python("python: stubs", "-m mypy.stubtest givens._native"),
     Step::python("python: tests", "-m pytest -q python/tests"),
     Step::python("python: documentation", "-m sphinx -q -W --keep-going python/docs target/python/docs"),
 ];
+
+/// The peers' crates are not fetched for this: it is for where `cargo xtask bench --prepare` has built them.
+const PEERS: Step = Step::cargo(
+    "lints of the peers",
+    "clippy --quiet --manifest-path benchmarks/peers/Cargo.toml --target-dir target/benchmarks/peers-lints --locked --offline -- -D warnings",
+);
 
 /// Runs every step, also after one that failed, and tells how each went; whether all went well.
 pub fn run(root: &Path) -> bool {
@@ -40,6 +50,9 @@ pub fn run(root: &Path) -> bool {
     done.push(timed("tidy", || tidy::run(root)));
     for step in STEPS {
         done.push(timed(step.title, || step.run(root)));
+    }
+    if root.join("target/benchmarks/peers").exists() {
+        done.push(timed(PEERS.title, || PEERS.run(root)));
     }
     heading("ci");
     for (title, good, time) in &done {

@@ -21,7 +21,8 @@ const USAGE: &str = "usage:
   cargo xtask reproduction PAGES
                       puts the index of a folder that `givens reproduce` wrote into docs/reproduction.md
   cargo xtask bench [OPTIONS]
-                      givens and its peers on fixed workloads, into docs/benchmarks.md
+                      givens and its peers on fixed workloads, into docs/benchmarks.md; with --scaling, what a step costs as
+                      something grows, into docs/scaling.md
   cargo xtask instructions [--bless | --where-valgrind-is]
                       counts the instructions of fixed work under valgrind, against benchmarks/instructions.toml; without
                       valgrind an error, or nothing";

@@ -1,10 +1,14 @@
-//! givens as a contestant: `givens-benchmarks CONTESTANT WORKLOAD INPUTS`, as `givens_contest` says.
+//! givens as a contestant: `givens-benchmarks CONTESTANT WORKLOAD INPUTS`, as `givens_contest` says; with the feature `scaling`, also what `cargo xtask
+//! bench --scaling` measures.
 
 mod batch;
+mod file;
 mod kernels;
 mod models;
 mod packs;
 mod problem;
+#[cfg(feature = "scaling")]
+mod scaling;
 mod single;
 mod smooth;
 mod workloads;
@@ -16,6 +20,10 @@ const VERSION: &str = concat!("givens ", env!("CARGO_PKG_VERSION"));
 
 fn main() -> Result<(), Failure> {
     let (contestant, workload, inputs) = called_with()?;
+    #[cfg(feature = "scaling")]
+    if let Some(wanted) = contestant.strip_prefix("scaling ") {
+        return scaling::run(wanted, &inputs, std::path::Path::new(&workload));
+    }
     // `cargo xtask instructions` asks for one repetition
     let (contestant, once) = match contestant.strip_prefix("count ") {
         Some(contestant) => (contestant.to_owned(), true),

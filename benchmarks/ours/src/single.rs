@@ -20,15 +20,21 @@ where
     H: Observation + 'static,
 {
     let mut told = Rows::every(problem.every);
-    let steps = problem.rows.rows();
     let mut single = Single { problem, memory: Vec::new() };
     single.run(Some(&mut told))?;
-    Ok(Entry {
-        version: VERSION.to_owned(),
-        steps,
-        result: told.numbers,
-        go: Box::new(move || single.run(None)),
-    })
+    Ok(Entry { result: told.numbers, ..untold(single.problem) })
+}
+
+/// The same, with nothing told of its result.
+pub fn untold<X, M, H>(problem: Problem<X, M, H>) -> Entry<'static>
+where
+    X: Over<M> + 'static,
+    M: 'static,
+    H: Observation + 'static,
+{
+    let steps = problem.rows.rows();
+    let mut single = Single { problem, memory: Vec::new() };
+    Entry { version: VERSION.to_owned(), steps, result: Vec::new(), go: Box::new(move || single.run(None)) }
 }
 
 impl<X: Over<M>, M, H: Observation> Single<X, M, H> {

@@ -38,12 +38,18 @@ impl Inputs {
         Self { folder: PathBuf::from(folder) }
     }
 
+    /// Where a file of this name is.
+    #[must_use]
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.folder.join(name)
+    }
+
     /// `NAME.csv`: a header, then numbers.
     ///
     /// # Errors
     /// A file that cannot be read, or a cell that is no number.
     pub fn csv(&self, name: &str) -> Result<Table, Failure> {
-        let path = self.folder.join(format!("{name}.csv"));
+        let path = self.path(&format!("{name}.csv"));
         let text = std::fs::read_to_string(&path).map_err(|error| format!("{}: {error}", path.display()))?;
         let mut lines = text.lines();
         let columns = lines.next().unwrap_or("").split(',').count();
@@ -57,7 +63,7 @@ impl Inputs {
     /// # Errors
     /// A file that cannot be read.
     pub fn f32(&self, name: &str, columns: usize) -> Result<Table, Failure> {
-        let path = self.folder.join(format!("{name}.f32"));
+        let path = self.path(&format!("{name}.f32"));
         let bytes = std::fs::read(&path).map_err(|error| format!("{}: {error}", path.display()))?;
         let values = bytes.chunks_exact(4).map(|b| f64::from(f32::from_le_bytes([b[0], b[1], b[2], b[3]])));
         Ok(Table { columns, values: values.collect() })

@@ -8,10 +8,12 @@
 mod clock;
 mod inputs;
 mod rows;
+mod spread;
 
 pub use clock::Stopwatch;
 pub use inputs::{Inputs, Table};
 pub use rows::Rows;
+pub use spread::{Spread, duration};
 
 use std::io::{BufRead, Write, stdin, stdout};
 

@@ -3,7 +3,7 @@
 
 use core::hint::black_box;
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
-use givens_core::kernels::{sweep, sweep_scratch, tria};
+use givens_core::kernels::{cholesky, sweep, sweep_scratch, tria};
 
 /// Numbers that repeat after eleven, with a larger diagonal.
 fn matrix(rows: usize, columns: usize) -> Vec<f64> {
@@ -49,5 +49,21 @@ fn rotate(c: &mut Criterion) {
     }
 }
 
-criterion_group!(kernels, triangularise, rotate);
+/// n × n, of a matrix with a large diagonal.
+fn factorise(c: &mut Criterion) {
+    let mut group = c.benchmark_group("cholesky n x n");
+    for n in [5, 7, 20, 50, 100] {
+        let mut start = vec![0.5; n * n];
+        start.iter_mut().step_by(n + 1).for_each(|diagonal| *diagonal = n as f64);
+        let mut a = start.clone();
+        group.bench_function(BenchmarkId::from_parameter(n), |b| {
+            b.iter(|| {
+                a.copy_from_slice(&start);
+                let _ = black_box(cholesky(black_box(&mut a), n));
+            });
+        });
+    }
+}
+
+criterion_group!(kernels, triangularise, rotate, factorise);
 criterion_main!(kernels);

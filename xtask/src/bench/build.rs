@@ -1,6 +1,7 @@
 //! The contestants' programs: built here, or found missing with a word on how to make them.
 
 use super::options::Options;
+use super::python;
 use super::table::Contestant;
 use crate::say;
 use std::path::{Path, PathBuf};
@@ -20,28 +21,51 @@ pub struct Built {
 pub fn all(root: &Path, target: &Path, options: &Options) -> Built {
     let environments = target.join("benchmarks");
     let left_out = || Err("left out (--no-peers)".to_owned());
-    let built = Built {
+    Built {
         root: root.to_owned(),
         ours: ours(root, target),
         peers: if options.peers { peers(root, &environments) } else { left_out() },
         cpp: if options.peers { cpp(root, &environments) } else { left_out() },
         python: if options.python { Ok(()) } else { Err("left out (--no-python)".to_owned()) },
         environments,
-    };
-    if options.prepare && options.python {
-        for name in environments_of(root) {
-            environment(root, &built.environments, &name).unwrap_or_else(|reason| say(&reason));
-        }
     }
-    built
 }
 
-fn cargo() -> Command {
+/// Builds what the options want, makes the environments, and tells of each how that went.
+pub fn prepare(root: &Path, target: &Path, options: &Options) -> Result<(), String> {
+    let built = all(root, target, options);
+    let programs =
+        [("givens", &built.ours), ("the Rust peers", &built.peers), ("the C++ filters", &built.cpp)];
+    let mut went: Vec<(String, Result<(), String>)> = Vec::new();
+    for (name, program) in programs {
+        went.push((name.to_owned(), program.as_ref().map(|_| ()).map_err(Clone::clone)));
+    }
+    for name in python::environments_of(root).iter().filter(|_| options.python) {
+        say(&format!("the Python environment `{name}`"));
+        let made = python::environment(root, &built.environments, name);
+        went.push((format!("the Python environment `{name}`"), made));
+    }
+    let mut missing = 0;
+    for (name, outcome) in &went {
+        match outcome {
+            Ok(()) => say(&format!("ready: {name}")),
+            Err(reason) => {
+                missing += 1;
+                say(&format!("not there: {name}: {reason}"));
+            }
+        }
+    }
+    let word = "a race would go on without them, and name them on its page";
+    if missing == 0 { Ok(()) } else { Err(format!("{missing} of {} are not there; {word}", went.len())) }
+}
+
+/// The cargo that called us.
+pub fn cargo() -> Command {
     Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
 }
 
 /// Runs a command; in words why it failed.
-fn done(command: &mut Command, what: &str) -> Result<(), String> {
+pub fn done(command: &mut Command, what: &str) -> Result<(), String> {
     match command.status() {
         Ok(status) if status.success() => Ok(()),
         Ok(status) => Err(format!("{what} failed: {status}")),
@@ -51,8 +75,17 @@ fn done(command: &mut Command, what: &str) -> Result<(), String> {
 
 /// givens, in its release profile.
 pub fn ours(root: &Path, target: &Path) -> Result<PathBuf, String> {
+    ours_with(root, target, &[])
+}
+
+/// The same with what the scaling study needs.
+pub fn ours_for_scaling(root: &Path, target: &Path) -> Result<PathBuf, String> {
+    ours_with(root, target, &["--features", "scaling"])
+}
+
+fn ours_with(root: &Path, target: &Path, words: &[&str]) -> Result<PathBuf, String> {
     let (package, mut build) = ("givens-benchmarks", cargo());
-    build.current_dir(root).args(["build", "--release", "--quiet", "--package", package]);
+    build.current_dir(root).args(["build", "--release", "--quiet", "--package", package]).args(words);
     done(&mut build, "building givens")?;
     Ok(target.join("release").join(package))
 }
@@ -82,26 +115,6 @@ fn cpp(root: &Path, environments: &Path) -> Result<PathBuf, String> {
     build.args(["-isystem", "/usr/include/eigen3", "-o"]).arg(&program).arg(sources.join("main.cpp"));
     done(&mut build, "compiling the C++ filters (a C++ compiler and Eigen 3.4, libeigen3-dev)")?;
     Ok(program)
-}
-
-/// Every environment has its requirements beside the scripts.
-fn environments_of(root: &Path) -> Vec<String> {
-    let files = std::fs::read_dir(root.join("benchmarks/python")).into_iter().flatten().flatten();
-    let names = files.map(|file| file.file_name().to_string_lossy().into_owned());
-    names.filter_map(|name| name.strip_suffix(".txt").map(str::to_owned)).collect()
-}
-
-/// Makes an environment and installs its requirements.
-fn environment(root: &Path, environments: &Path, name: &str) -> Result<(), String> {
-    let folder = environments.join(name);
-    let requirements = root.join("benchmarks/python").join(format!("{name}.txt"));
-    let interpreter = folder.join("bin/python");
-    if !interpreter.exists() {
-        done(Command::new("python3").args(["-m", "venv"]).arg(&folder), "a Python environment")?;
-    }
-    let mut install = Command::new(interpreter);
-    install.current_dir(root).args(["-m", "pip", "install", "--quiet", "--requirement"]).arg(&requirements);
-    done(&mut install, &format!("installing {}", requirements.display()))
 }
 
 impl Built {

@@ -35,3 +35,15 @@ pub fn line_of(program: &str, words: &[&str], folder: &Path) -> String {
     let text = out.map(|out| String::from_utf8_lossy(&out.stdout).into_owned()).unwrap_or_default();
     text.lines().next().unwrap_or("").to_owned()
 }
+
+/// What stands at the head of a page, by name; `before` is the load when the work began.
+pub fn facts(root: &Path, before: &str) -> [(&'static str, String); 4] {
+    let line = |program: &str, words: &[&str]| line_of(program, words, root);
+    let revision = line("git", &["describe", "--always", "--dirty"]);
+    [
+        ("date", line("date", &["-u", "+%Y-%m-%d %H:%M UTC"])),
+        ("machine", processor()),
+        ("load before and after", format!("{before}; {}", load())),
+        ("givens", format!("revision {revision}, {}", line("rustc", &["--version"]))),
+    ]
+}

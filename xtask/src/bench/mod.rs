@@ -5,14 +5,16 @@ mod build;
 mod contestant;
 mod machine;
 mod options;
+mod python;
 mod report;
 mod rounds;
-mod spread;
+mod scaling;
+mod size;
 mod summary;
 mod table;
 
 use crate::say;
-use options::Options;
+use options::{Options, Task};
 use rounds::{Runner, Standing};
 use std::path::{Path, PathBuf};
 use table::{Contestant, Table, Workload};
@@ -39,12 +41,15 @@ pub fn run(root: &Path, words: &[&str]) -> bool {
 fn measured(root: &Path, words: &[&str]) -> Result<(), String> {
     let options = Options::parse(words)?;
     let table = Table::read(&root.join("benchmarks/contestants.toml"))?;
-    options.check(&table)?;
     let target = target(root);
-    let built = build::all(root, &target, &options);
-    if options.prepare {
-        return Ok(());
+    if matches!(options.task, Task::Scaling | Task::ScalingAndBuild) {
+        return scaling::run(root, &target, &options);
     }
+    options.check(&table)?;
+    if options.task == Task::Prepare {
+        return build::prepare(root, &target, &options);
+    }
+    let built = build::all(root, &target, &options);
     let before = machine::load();
     let inputs = root.join("benchmarks/inputs");
     let mut races = Vec::new();

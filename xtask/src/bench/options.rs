@@ -3,6 +3,18 @@
 use super::table::Table;
 use core::time::Duration;
 
+/// What is to be done.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Task {
+    Race,
+    /// Only build, and fetch what that needs.
+    Prepare,
+    /// What a step costs as something grows; `only` names studies.
+    Scaling,
+    /// That, and the build.
+    ScalingAndBuild,
+}
+
 /// The words behind `cargo xtask bench`.
 pub struct Options {
     /// Workloads; all if empty.
@@ -13,13 +25,13 @@ pub struct Options {
     pub budget: Duration,
     pub python: bool,
     pub peers: bool,
-    /// Only build, and fetch what that needs.
-    pub prepare: bool,
-    /// The page, in place of `docs/benchmarks.md`.
+    pub task: Task,
+    /// The page, in place of `docs/benchmarks.md` or `docs/scaling.md`.
     pub out: Option<String>,
 }
 
-const USAGE: &str = "cargo xtask bench [--only W1,W2] [--rounds N] [--budget SECONDS] [--no-python] [--no-peers] [--prepare] [--out FILE]";
+const USAGE: &str = "cargo xtask bench [--only W1,W2] [--rounds N] [--budget SECONDS] [--no-python] [--no-peers] [--prepare] [--out FILE]
+cargo xtask bench --scaling [--only states,tracks,threads,substeps] [--rounds N] [--build] [--out FILE]";
 
 impl Options {
     pub fn parse(words: &[&str]) -> Result<Self, String> {
@@ -29,7 +41,7 @@ impl Options {
             budget: Duration::from_secs(8),
             python: true,
             peers: true,
-            prepare: false,
+            task: Task::Race,
             out: None,
         };
         let mut words = words.iter();
@@ -41,7 +53,12 @@ impl Options {
                 "--budget" => options.budget = Duration::from_secs(number(word, value()?)? as u64),
                 "--no-python" => options.python = false,
                 "--no-peers" => options.peers = false,
-                "--prepare" => options.prepare = true,
+                "--prepare" => options.task = Task::Prepare,
+                "--scaling" if options.task == Task::Race => options.task = Task::Scaling,
+                "--build" if options.task == Task::Scaling => options.task = Task::ScalingAndBuild,
+                "--build" => {
+                    return Err(format!("--build stands behind --scaling, whose page it is on: {USAGE}"));
+                }
                 "--out" => options.out = Some(value()?.to_owned()),
                 _ => return Err(format!("`{word}` is no option: {USAGE}")),
             }

@@ -2,31 +2,22 @@
 
 use super::options::Options;
 use super::rounds::Standing;
-use super::spread::Spread;
 use super::table::Table;
 use super::{Race, machine};
 use core::fmt::Write;
+use givens_contest::Spread;
 use std::path::Path;
 
 /// `docs/benchmarks.md`.
 pub fn page(table: &Table, races: &[Race], root: &Path, options: &Options, before: &str) -> String {
     let mut page = String::from(include_str!("head.md"));
-    let line = |program: &str, words: &[&str]| machine::line_of(program, words, root);
-    let revision = line("git", &["describe", "--always", "--dirty"]);
-    let facts = [
-        ("date", line("date", &["-u", "+%Y-%m-%d %H:%M UTC"])),
-        ("machine", machine::processor()),
-        ("load before and after", format!("{before}; {}", machine::load())),
-        ("givens", format!("revision {revision}, {}", line("rustc", &["--version"]))),
-        (
-            "rounds",
-            format!("{}, fewer where a contestant had used {} s", options.rounds, options.budget.as_secs()),
-        ),
-    ];
-    for (what, value) in facts {
+    for (what, value) in machine::facts(root, before) {
         let _ = writeln!(page, "- {what}: {value}");
     }
+    let (rounds, budget) = (options.rounds, options.budget.as_secs());
+    let _ = writeln!(page, "- rounds: {rounds}, fewer where a contestant had used {budget} s");
     let _ = writeln!(page, "\n## In short\n\n{}", super::summary::lines(races));
+    page += &super::summary::at_run_time(races);
     for race in races {
         let _ = writeln!(
             page,

@@ -3,9 +3,9 @@
 use super::Race;
 use super::report::cpu;
 use super::rounds::Standing;
-use super::spread::Spread;
 use super::table::Contestant;
 use core::fmt::Write;
+use givens_contest::{Spread, duration};
 
 /// A standing with its spread.
 struct Ranked<'r> {
@@ -36,7 +36,7 @@ pub fn lines(races: &[Race]) -> String {
     for race in races {
         let all = ranked(race);
         let theirs = best(&all, |one| !one.ours);
-        let named = |one: &Ranked| format!("{} ({})", time(one.cpu.median), one.standing.contestant.name);
+        let named = |one: &Ranked| format!("{} ({})", duration(one.cpu.median), one.standing.contestant.name);
         let _ = write!(text, "| {} | {} |", race.workload.name, theirs.map_or("–".to_owned(), named));
         for class in ["", "packs"] {
             let ours = best(&all, |one| one.ours && one.class == class);
@@ -51,6 +51,36 @@ pub fn lines(races: &[Race]) -> String {
         text.push('\n');
     }
     text + "\nHow many times faster than the best of the others; within 1.4 there is nothing in it. Single precision is left out here.\n"
+}
+
+/// What a model costs that is not compiled with its filter: one line for each contestant and workload; nothing without any.
+pub fn at_run_time(races: &[Race]) -> String {
+    let mut text = String::new();
+    for race in races {
+        let all = ranked(race);
+        for one in all.iter().filter(|one| one.standing.agrees) {
+            let contestant = one.standing.contestant;
+            let native = all.iter().find(|other| contestant.native.contains(&other.standing.contestant.name));
+            let Some(native) = native else { continue };
+            let _ = writeln!(
+                text,
+                "| {} | {} | {} | {} | {} | **{:.2}** |",
+                race.workload.name,
+                contestant.name,
+                duration(one.cpu.median),
+                native.standing.contestant.name,
+                duration(native.cpu.median),
+                one.cpu.median / native.cpu.median,
+            );
+        }
+    }
+    if text.is_empty() {
+        return text;
+    }
+    format!(
+        "### Models known at run time\n\n| workload | contestant | | the same, compiled | | ratio |\n|---|---|--:|---|--:|--:|\n{text}\n\
+         How many times as long as with a model that is compiled into the filter. The aim is at most 1.4 in P1.\n"
+    )
 }
 
 /// A ratio, and what it says.
@@ -81,10 +111,10 @@ pub fn table(race: &Race) -> String {
             text,
             "| {bold}{}{bold} | {} | {} | {} – {} | {} | {} | {:.0e} σ{mark} | {} |",
             standing.contestant.name,
-            time(cpu.median),
-            time(cpu.least),
-            time(cpu.lower),
-            time(cpu.upper),
+            duration(cpu.median),
+            duration(cpu.least),
+            duration(cpu.lower),
+            duration(cpu.upper),
             times(false),
             times(true),
             standing.distance.worst(),
@@ -95,28 +125,4 @@ pub fn table(race: &Race) -> String {
         let _ = writeln!(text, "\n{}: {reason}.", contestant.name);
     }
     text
-}
-
-/// Nanoseconds, in a unit that suits.
-fn time(ns: f64) -> String {
-    let (value, unit) = match ns {
-        ns if ns < 1e3 => return format!("{ns:.0} ns"),
-        ns if ns < 1e6 => (ns / 1e3, "µs"),
-        ns => (ns / 1e6, "ms"),
-    };
-    let digits = 2_usize.saturating_sub(value.log10().floor().max(0.0) as usize);
-    format!("{value:.digits$} {unit}")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::time;
-
-    #[test]
-    fn times_have_three_digits() {
-        assert_eq!(time(123.4), "123 ns");
-        assert_eq!(time(1234.0), "1.23 µs");
-        assert_eq!(time(45_670.0), "45.7 µs");
-        assert_eq!(time(1.234e8), "123 ms");
-    }
 }

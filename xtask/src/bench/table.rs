@@ -27,6 +27,8 @@ pub struct Contestant {
     pub ours: bool,
     /// Many trajectories at once, or less precise numbers: not what a single filter in double precision is compared with.
     pub class: String,
+    /// Those of givens with the same method and a model that is compiled with it, for one whose model is not.
+    pub native: Vec<String>,
     /// In place of the workload's, where a contestant computes in single precision.
     pub tolerance: Option<f64>,
     /// The environment of a script: a folder, and the requirements of the same name.
@@ -72,6 +74,7 @@ impl Table {
                 workloads: word(row, "workloads")?.split(' ').map(str::to_owned).collect(),
                 ours: word(row, "program")? == "ours" || row.get("ours").is_some(),
                 class: or_none("class"),
+                native: list(row, "native"),
                 tolerance: number(row, "tolerance"),
                 environment: or_none("environment"),
                 remark: or_none("remark"),
@@ -99,6 +102,13 @@ fn word(row: &DeTable, key: &str) -> Result<String, String> {
     value.map(str::to_owned).ok_or_else(|| format!("an entry without `{key}`: {:?}", row.get("name")))
 }
 
+/// None where there is no list.
+fn list(row: &DeTable, key: &str) -> Vec<String> {
+    let values = row.get(key).and_then(|value| value.get_ref().as_array());
+    let words = values.into_iter().flat_map(|values| values.iter());
+    words.filter_map(|value| value.get_ref().as_str().map(str::to_owned)).collect()
+}
+
 fn number(row: &DeTable, key: &str) -> Option<f64> {
     match row.get(key)?.get_ref() {
         DeValue::Float(number) => number.as_str().parse().ok(),
@@ -121,6 +131,11 @@ mod tests {
         for one in &table.contestants {
             let known = |name: &String| table.workloads.iter().any(|workload| &workload.name == name);
             assert!(one.workloads.iter().all(known), "{}", one.name);
+            let runs = |name: &str, workload: &str| {
+                table.contestants.iter().any(|other| other.name == name && other.takes_part(workload))
+            };
+            let compared = |workload: &String| one.native.iter().any(|name| runs(name, workload));
+            assert!(one.native.is_empty() || one.workloads.iter().all(compared), "{}", one.name);
         }
     }
 

@@ -1,17 +1,23 @@
-//! W5: Lorenz-96, one step of the classic Runge–Kutta method; every other component is measured.
+//! W5: Lorenz-96, one step of the classic Runge–Kutta method, or as it is, in continuous time; every other component is measured.
 
-use givens_core::model::{At, Noise, Observation, Transition};
+use givens_core::model::{At, Noise, Observation, Sde, Transition, Varies};
 use givens_core::scalar::Real;
 
 /// With this many states.
 pub struct Circle(pub usize);
 
 /// More than any workload has.
-const MOST: usize = 256;
+const MOST: usize = if cfg!(feature = "scaling") { 1000 } else { 256 };
 
 #[inline(always)]
 fn drift<T: Real>(x: &[T], dx: &mut [T]) {
     let (n, forcing) = (x.len(), T::of(8.0));
+    if n < 4 {
+        for (i, dx) in dx.iter_mut().enumerate() {
+            *dx = (x[(i + 1) % n] - x[(i + n - 2) % n]) * x[(i + n - 1) % n] - x[i] + forcing;
+        }
+        return;
+    }
     dx[0] = (x[1] - x[n - 2]) * x[n - 1] - x[0] + forcing;
     dx[1] = (x[2] - x[n - 1]) * x[0] - x[1] + forcing;
     dx[n - 1] = (x[0] - x[n - 3]) * x[n - 2] - x[n - 1] + forcing;
@@ -50,6 +56,7 @@ impl Transition for Circle {
             ..=32 => classic::<T, 32>(at, x, out),
             33..=64 => classic::<T, 64>(at, x, out),
             65..=128 => classic::<T, 128>(at, x, out),
+            129..=256 => classic::<T, 256>(at, x, out),
             _ => classic::<T, MOST>(at, x, out),
         }
     }
@@ -61,6 +68,30 @@ impl Transition for Circle {
     #[inline(always)]
     fn process_noise<T: Real>(&self, _: &At<T>, out: &mut [T]) {
         diagonal(self.0, 0.05_f64.sqrt(), out);
+    }
+}
+
+impl Sde for Circle {
+    fn states(&self) -> usize {
+        self.0
+    }
+
+    fn noises(&self) -> usize {
+        self.0
+    }
+
+    #[inline(always)]
+    fn drift<T: Real>(&self, _: &At<T>, x: &[T], dx: &mut [T]) {
+        drift(x, dx);
+    }
+
+    #[inline(always)]
+    fn diffusion<T: Real>(&self, _: &At<T>, _: &[T], g: &mut [T]) {
+        diagonal(self.0, 1.0, g);
+    }
+
+    fn diffusion_varies(&self) -> Varies {
+        Varies::Never
     }
 }
 

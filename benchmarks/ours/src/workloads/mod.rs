@@ -1,8 +1,8 @@
 //! Who runs what.
 
 mod circle;
-mod plane;
-mod space;
+pub mod plane;
+pub mod space;
 
 use crate::kernels;
 use givens_contest::{Entry, Failure, Inputs};

@@ -3,12 +3,13 @@
 use super::unknown;
 use crate::models::{SpaceRadar, SpaceStep, SpaceTurn};
 use crate::problem::{Problem, prior};
-use crate::{packs, single};
+use crate::{file, packs, single};
 use givens_contest::{Entry, Failure, Inputs, Table};
 use givens_core::filter::{CdCkf, CdCkf2, Ckf, SrCdCkf, SrCdCkf2, SrCkf};
 use givens_core::ode::Solver;
 
-fn problem<X, M>(
+/// One trajectory, a row every `dt`.
+pub fn problem<X, M>(
     method: X,
     model: M,
     dt: f64,
@@ -19,6 +20,12 @@ fn problem<X, M>(
     let prior = prior(&mean, &[100.0, 10.0, 100.0, 10.0, 100.0, 10.0, 1e-4])?;
     let steps = rows.rows();
     Ok(Problem { method, model, sensor: SpaceRadar, prior, dt, rows, steps, every })
+}
+
+#[cfg(feature = "scaling")]
+/// Many trajectories in continuous time, a row every second, each with `steps` of them.
+pub fn split<X>(method: X, rows: Table, steps: usize) -> Result<Problem<X, SpaceTurn, SpaceRadar>, Failure> {
+    Ok(Problem { steps, ..problem(method, SpaceTurn, 1.0, rows, steps)? })
 }
 
 pub fn moments(contestant: &str, inputs: &Inputs) -> Result<Entry<'static>, Failure> {
@@ -51,6 +58,7 @@ pub fn ito_taylor(contestant: &str, inputs: &Inputs) -> Result<Entry<'static>, F
     Ok(match contestant {
         "sr-cd-ckf" => single::entry(problem(root, SpaceTurn, 1.0, rows, 10)?)?,
         "cd-ckf" => single::entry(problem(cov, SpaceTurn, 1.0, rows, 10)?)?,
+        "file" => file::one(inputs, "space", rows, 1.0, 10)?,
         "sr-cd-ckf packs" => packs::entry::<f64, _, _, _>(problem(root, SpaceTurn, 1.0, rows, 10)?)?,
         "sr-cd-ckf packs f32" => packs::entry::<f32, _, _, _>(problem(root, SpaceTurn, 1.0, rows, 10)?)?,
         _ => return unknown(contestant),

@@ -155,20 +155,26 @@ pub fn expansion_by_duals<T: Real, M: Sde + ?Sized>(
     }
     let (u, p) = (&*u, &*p);
     let when = |speed: T| At { t: Dual2::along(at.t, speed), dt: Dual2::constant(at.dt), u, p };
+    let follows = model.diffusion_varies() == Varies::WithState;
     for k in 0..points {
         for i in 0..n {
             here[i] = x[i * points + k];
         }
-        model.diffusion(at, here, g);
-        l0.iter_mut().skip(k).step_by(points).for_each(|sum| *sum = T::zero());
+        if k == 0 || follows {
+            model.diffusion(at, here, g);
+        }
         for j in 0..q.max(1) {
             for i in 0..n {
                 point[i] = Dual2::along(here[i], if q == 0 { T::zero() } else { g[i * q + j] });
             }
             model.drift(&when(T::zero()), point, image);
             for i in 0..n {
-                f[i * points + k] = image[i].v;
-                l0[i * points + k] += T::of(0.5) * image[i].dd;
+                let (place, half) = (i * points + k, T::of(0.5) * image[i].dd);
+                if j == 0 {
+                    (f[place], l0[place]) = (image[i].v, half);
+                } else {
+                    l0[place] += half;
+                }
                 if q > 0 && !lf.is_empty() {
                     lf[(i * q + j) * points + k] = image[i].d;
                 }

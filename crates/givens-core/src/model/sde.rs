@@ -130,6 +130,9 @@ pub const fn expansion_scratch(n: usize, q: usize, beside: usize) -> usize {
     n.saturating_mul(q).saturating_add(n).saturating_add(duals)
 }
 
+/// States whose duals may stay in registers.
+const FEW: usize = 16;
+
 /// The drift and its two Itô derivatives by duals, point after point: what [`Sde::expansion_points`] provides, for
 /// models that override it and sometimes cannot do better.
 #[inline(always)]
@@ -148,6 +151,10 @@ pub fn expansion_by_duals<T: Real, M: Sde + ?Sized>(
     let (here, rest) = rest.split_at_mut(n);
     let (point, rest) = as_duals(rest).split_at_mut(n);
     let (image, rest) = rest.split_at_mut(n);
+    // in arrays of its own, the compiler keeps a point of a model of known length in registers
+    let (mut own_point, mut own_image) = ([Dual2::<T>::zero(); FEW], [Dual2::<T>::zero(); FEW]);
+    let (point, image) =
+        if n <= FEW { (&mut own_point[..n], &mut own_image[..n]) } else { (point, image) };
     let (u, rest) = rest.split_at_mut(at.u.len());
     let p = &mut rest[..at.p.len()];
     for (dual, &v) in u.iter_mut().zip(at.u).chain(p.iter_mut().zip(at.p)) {

@@ -1,6 +1,7 @@
 //! A model that is known when the program runs: read from a file, its method by name, as the command has it.
 
 use crate::VERSION;
+use crate::workloads::unknown;
 use core::num::NonZeroUsize;
 use givens::Data;
 use givens::batch::{Batch, Track};
@@ -81,14 +82,18 @@ impl File {
     }
 }
 
+/// What there is for a workload.
+pub fn offer(contestant: &str, workload: &str, inputs: &Inputs) -> Result<Entry<'static>, Failure> {
+    match (workload, contestant) {
+        ("W1", "file") => one(inputs, "plane", inputs.csv("plane")?, 1.0, 10),
+        ("W2", "file batch") => many(inputs, "plane", inputs.f32("plane_tracks", 2)?, 1.0, 100),
+        ("P1", "file") => one(inputs, "space", inputs.csv("space_fast")?, 1.0, 10),
+        _ => unknown(contestant),
+    }
+}
+
 /// One trajectory after the model file NAME, a row every `dt`; every so many rows are reported.
-pub fn one(
-    inputs: &Inputs,
-    name: &str,
-    rows: Table,
-    dt: f64,
-    every: usize,
-) -> Result<Entry<'static>, Failure> {
+fn one(inputs: &Inputs, name: &str, rows: Table, dt: f64, every: usize) -> Result<Entry<'static>, Failure> {
     let file = File::read(inputs, name, rows, dt)?;
     let mut told = Rows::every(every);
     file.alone(Some(&mut told))?;
@@ -101,13 +106,7 @@ pub fn one(
 }
 
 /// Trajectories of `steps` rows each, after the model file NAME.
-pub fn many(
-    inputs: &Inputs,
-    name: &str,
-    rows: Table,
-    dt: f64,
-    steps: usize,
-) -> Result<Entry<'static>, Failure> {
+fn many(inputs: &Inputs, name: &str, rows: Table, dt: f64, steps: usize) -> Result<Entry<'static>, Failure> {
     let data = crate::batch::split(&rows, dt, steps)?;
     let file = File::read(inputs, name, rows, dt)?;
     let mut told = Rows::every(1);

@@ -2,6 +2,7 @@
 //! bench --scaling` measures.
 
 mod batch;
+#[cfg(feature = "file")]
 mod file;
 mod kernels;
 mod models;

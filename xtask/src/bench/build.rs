@@ -78,6 +78,11 @@ pub fn ours(root: &Path, target: &Path) -> Result<PathBuf, String> {
     ours_with(root, target, &[])
 }
 
+/// The same without what instructions are not counted of, which takes longest to compile.
+pub fn ours_for_counting(root: &Path, target: &Path) -> Result<PathBuf, String> {
+    ours_with(root, target, &["--no-default-features"])
+}
+
 /// The same with what the scaling study needs.
 pub fn ours_for_scaling(root: &Path, target: &Path) -> Result<PathBuf, String> {
     ours_with(root, target, &["--features", "scaling"])

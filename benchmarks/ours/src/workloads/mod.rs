@@ -9,6 +9,10 @@ use givens_contest::{Entry, Failure, Inputs};
 
 /// What a contestant has for a workload.
 pub fn offer(contestant: &str, workload: &str, inputs: &Inputs) -> Result<Entry<'static>, Failure> {
+    #[cfg(feature = "file")]
+    if contestant.starts_with("file") {
+        return crate::file::offer(contestant, workload, inputs);
+    }
     match workload {
         "W1" => plane::one(contestant, inputs),
         "W2" => plane::many(contestant, inputs),

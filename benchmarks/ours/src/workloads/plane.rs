@@ -3,7 +3,7 @@
 use super::unknown;
 use crate::models::{PlaneRadar, PlaneTurn};
 use crate::problem::{Problem, prior};
-use crate::{batch, file, packs, single, smooth};
+use crate::{batch, packs, single, smooth};
 use core::num::NonZeroUsize;
 use givens_contest::{Entry, Failure, Inputs, Table};
 use givens_core::filter::{Ckf, SrCkf};
@@ -22,7 +22,6 @@ pub fn one(contestant: &str, inputs: &Inputs) -> Result<Entry<'static>, Failure>
     Ok(match contestant {
         "sr-ckf" => single::entry(problem(SrCkf::default(), rows, 1000, 10)?)?,
         "ckf" => single::entry(problem(Ckf::default(), rows, 1000, 10)?)?,
-        "file" => file::one(inputs, "plane", rows, 1.0, 10)?,
         _ => return unknown(contestant),
     })
 }
@@ -33,7 +32,6 @@ pub fn many(contestant: &str, inputs: &Inputs) -> Result<Entry<'static>, Failure
         "sr-ckf" => single::entry(problem(SrCkf::default(), rows, 100, 100)?)?,
         "sr-ckf packs" => packs::entry::<f64, _, _, _>(problem(SrCkf::default(), rows, 100, 100)?)?,
         "sr-ckf batch" => batch::entry(problem(SrCkf::default(), rows, 100, 100)?, NonZeroUsize::MIN)?,
-        "file batch" => file::many(inputs, "plane", rows, 1.0, 100)?,
         "sr-ckf packs f32" => packs::entry::<f32, _, _, _>(problem(SrCkf::default(), rows, 100, 100)?)?,
         _ => return unknown(contestant),
     })

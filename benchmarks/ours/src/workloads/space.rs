@@ -3,7 +3,7 @@
 use super::unknown;
 use crate::models::{SpaceRadar, SpaceStep, SpaceTurn};
 use crate::problem::{Problem, prior};
-use crate::{file, packs, single};
+use crate::{packs, single};
 use givens_contest::{Entry, Failure, Inputs, Table};
 use givens_core::filter::{CdCkf, CdCkf2, Ckf, SrCdCkf, SrCdCkf2, SrCkf};
 use givens_core::ode::Solver;
@@ -58,7 +58,6 @@ pub fn ito_taylor(contestant: &str, inputs: &Inputs) -> Result<Entry<'static>, F
     Ok(match contestant {
         "sr-cd-ckf" => single::entry(problem(root, SpaceTurn, 1.0, rows, 10)?)?,
         "cd-ckf" => single::entry(problem(cov, SpaceTurn, 1.0, rows, 10)?)?,
-        "file" => file::one(inputs, "space", rows, 1.0, 10)?,
         "sr-cd-ckf packs" => packs::entry::<f64, _, _, _>(problem(root, SpaceTurn, 1.0, rows, 10)?)?,
         "sr-cd-ckf packs f32" => packs::entry::<f32, _, _, _>(problem(root, SpaceTurn, 1.0, rows, 10)?)?,
         _ => return unknown(contestant),

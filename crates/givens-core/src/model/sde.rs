@@ -153,8 +153,7 @@ pub fn expansion_by_duals<T: Real, M: Sde + ?Sized>(
     let (image, rest) = rest.split_at_mut(n);
     // in arrays of its own, the compiler keeps a point of a model of known length in registers
     let (mut own_point, mut own_image) = ([Dual2::<T>::zero(); FEW], [Dual2::<T>::zero(); FEW]);
-    let (point, image) =
-        if n <= FEW { (&mut own_point[..n], &mut own_image[..n]) } else { (point, image) };
+    let (point, image) = if n <= FEW { (&mut own_point[..n], &mut own_image[..n]) } else { (point, image) };
     let (u, rest) = rest.split_at_mut(at.u.len());
     let p = &mut rest[..at.p.len()];
     for (dual, &v) in u.iter_mut().zip(at.u).chain(p.iter_mut().zip(at.p)) {

@@ -21,8 +21,11 @@ impl Grain {
     pub fn of<T: Real>() -> Option<Self> {
         match made_of::<T, f64, pack::Narrow, pack::Wide>() {
             Some((set, depth)) => Some(Self { single: false, set, depth }),
-            None => made_of::<T, f32, pack::NarrowSingle, pack::WideSingle>()
-                .map(|(set, depth)| Self { single: true, set, depth }),
+            None => made_of::<T, f32, pack::NarrowSingle, pack::WideSingle>().map(|(set, depth)| Self {
+                single: true,
+                set,
+                depth,
+            }),
         }
     }
 

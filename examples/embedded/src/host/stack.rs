@@ -3,8 +3,9 @@
 use core::hint::black_box;
 use core::ptr::with_exposed_provenance;
 
-/// Words painted; a call that goes deeper is told as so many.
 const WORDS: usize = 2048;
+/// Bytes painted; a call that goes deeper is told as so many.
+pub const PAINTED: usize = WORDS * size_of::<u64>();
 const PAINT: u64 = 0x5bad_c0de_5bad_c0de;
 
 /// Bytes of stack that a call takes, from the frame of this function downwards.
@@ -28,7 +29,7 @@ fn paint() {
 /// The lowest word that is no longer paint.
 #[inline(never)]
 fn lowest(top: usize) -> usize {
-    let bottom = top - WORDS * size_of::<u64>();
+    let bottom = top - PAINTED;
     // SAFETY: these words lie in the frame that `paint` had, within the thread's stack, and are aligned as `here` is; that
     // frame ended below its caller's, so that the first of them is painted.
     let is_paint = |at: &usize| unsafe { with_exposed_provenance::<u64>(*at).read_volatile() } == PAINT;

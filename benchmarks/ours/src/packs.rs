@@ -35,8 +35,7 @@ where
 
 /// The vectors that batches use, and how many lanes they have.
 pub fn vectors<E: Element>() -> Result<(InstructionSet, usize), Failure> {
-    let sets = [InstructionSet::Avx2, InstructionSet::Neon];
-    let set = sets.into_iter().find(|set| set.available()).ok_or("this machine has no packs")?;
+    let set = InstructionSet::best();
     Ok((set, set.run_in_registers::<E, _>(Width).map_err(|_| "no packs")?))
 }
 
@@ -44,7 +43,6 @@ struct Width;
 
 impl<E: Element> Job<E> for Width {
     type Output = usize;
-    const AVX512: bool = false;
     #[inline(always)]
     fn run<P: Pack<Element = E>>(self) -> usize {
         P::WIDTH
@@ -59,7 +57,6 @@ struct Packed<'a, E, X, M, H> {
 
 impl<E: Element, X: Over<M>, M, H: Observation> Job<E> for Packed<'_, E, X, M, H> {
     type Output = Result<f64, Failure>;
-    const AVX512: bool = false;
 
     #[inline(always)]
     fn run<P: Pack<Element = E>>(self) -> Self::Output {

@@ -116,7 +116,6 @@ struct Packed<'a, E, X, M, H> {
 
 impl<E: Element, X: Over<M>, M, H: Observation> Job<E> for Packed<'_, E, X, M, H> {
     type Output = Result<f64, Failure>;
-    const AVX512: bool = false;
 
     #[inline(always)]
     fn run<P: Pack<Element = E>>(self) -> Self::Output {

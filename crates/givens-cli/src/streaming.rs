@@ -165,7 +165,10 @@ impl<'p> Streaming<'p> {
         }
         if let Some((rows, times)) = &mut self.thinned {
             rows.add(est, truth.as_ref());
-            (0..at.len()).for_each(|row| times.push(at, row));
+            for row in 0..at.len() {
+                let kept = times.push(at, row);
+                debug_assert!(kept, "rows of one run");
+            }
         }
     }
 

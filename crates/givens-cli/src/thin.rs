@@ -50,7 +50,7 @@ impl Thinned {
     /// Takes in the next rows; the truth of each, if there is one.
     pub fn add(&mut self, est: &Estimates, truth: Option<&Truth>) {
         if self.rows <= ALL {
-            (0..est.len()).for_each(|row| self.kept.push(est, row));
+            (0..est.len()).for_each(|row| self.keep(est, row));
             return;
         }
         self.count(est, truth);
@@ -63,10 +63,15 @@ impl Thinned {
             keep.sort_unstable();
             keep.dedup();
             for row in keep {
-                self.kept.push(est, row);
+                self.keep(est, row);
             }
         }
         self.taken += est.len();
+    }
+
+    fn keep(&mut self, est: &Estimates, row: usize) {
+        let kept = self.kept.push(est, row);
+        debug_assert!(kept, "rows of one run");
     }
 
     fn band(&mut self, dof: usize) -> (f64, f64) {

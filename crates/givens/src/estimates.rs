@@ -37,117 +37,91 @@ pub struct Estimates {
     pub log_likelihood: Vec<f64>,
 }
 
+/// Lists the arrays of floats of some estimates with the lengths of their rows; a filter has no rows of filtered ones besides.
+macro_rules! arrays {
+    ($of:ident $(, $mut:tt)?) => {{
+        let (n, d, smoother) = ($of.states, $of.measures, usize::from($of.smoothed));
+        [
+            (&$($mut)? $of.time, 1),
+            (&$($mut)? $of.mean, n),
+            (&$($mut)? $of.cov, n * n),
+            (&$($mut)? $of.factor, n * n),
+            (&$($mut)? $of.filtered_mean, n * smoother),
+            (&$($mut)? $of.filtered_cov, n * n * smoother),
+            (&$($mut)? $of.predicted_mean, n),
+            (&$($mut)? $of.predicted_cov, n * n),
+            (&$($mut)? $of.innovation, d),
+            (&$($mut)? $of.innovation_cov, d * d),
+            (&$($mut)? $of.nis, 1),
+            (&$($mut)? $of.log_likelihood, 1),
+        ]
+    }};
+}
+
 impl Estimates {
     pub(crate) fn new(states: usize, measures: usize, smoothed: bool) -> Self {
         Self { states, measures, smoothed, ..Self::default() }
     }
 
+    /// The arrays of floats, each with the length of its rows.
+    fn arrays(&self) -> [(&Vec<f64>, usize); 12] {
+        arrays!(self)
+    }
+
+    fn arrays_mut(&mut self) -> [(&mut Vec<f64>, usize); 12] {
+        arrays!(self, mut)
+    }
+
     /// Makes room for so many more rows, if there is that much memory.
     pub(crate) fn reserve(&mut self, rows: usize) {
-        let (n, d) = (self.states, self.measures);
-        let room = |of: &mut Vec<f64>, len: usize| {
-            let _ = of.try_reserve_exact(rows.saturating_mul(len));
-        };
-        for of in [&mut self.time, &mut self.nis, &mut self.log_likelihood] {
-            room(of, 1);
+        for (array, len) in self.arrays_mut() {
+            let _ = array.try_reserve_exact(rows.saturating_mul(len));
         }
-        for of in [&mut self.mean, &mut self.predicted_mean] {
-            room(of, n);
-        }
-        for of in [&mut self.cov, &mut self.factor, &mut self.predicted_cov] {
-            room(of, n * n);
-        }
-        if self.smoothed {
-            room(&mut self.filtered_mean, n);
-            room(&mut self.filtered_cov, n * n);
-        }
-        room(&mut self.innovation, d);
-        room(&mut self.innovation_cov, d * d);
         let _ = self.nis_dof.try_reserve_exact(rows);
     }
 
     /// Drops what stands behind the first `rows` rows.
     pub(crate) fn truncate(&mut self, rows: usize) {
-        let (n, d) = (self.states, self.measures);
-        self.time.truncate(rows);
-        self.nis.truncate(rows);
+        for (array, len) in self.arrays_mut() {
+            array.truncate(rows * len);
+        }
         self.nis_dof.truncate(rows);
-        self.log_likelihood.truncate(rows);
-        for of in [&mut self.mean, &mut self.filtered_mean, &mut self.predicted_mean] {
-            of.truncate(rows * n);
-        }
-        for of in [&mut self.cov, &mut self.factor, &mut self.filtered_cov, &mut self.predicted_cov] {
-            of.truncate(rows * n * n);
-        }
-        self.innovation.truncate(rows * d);
-        self.innovation_cov.truncate(rows * d * d);
     }
 
     /// Appends row `row` of other estimates, of as many states and measures; those of the first row that is appended to none.
-    pub fn push(&mut self, other: &Self, row: usize) {
+    ///
+    /// False, and nothing is appended, where the others have not this row, or rows of other lengths.
+    #[must_use]
+    pub fn push(&mut self, other: &Self, row: usize) -> bool {
+        let of = |est: &Self| (est.states, est.measures, est.smoothed);
+        if row >= other.len() || !(self.is_empty() || of(self) == of(other)) {
+            return false;
+        }
         if self.is_empty() {
             *self = Self::new(other.states, other.measures, other.smoothed);
         }
-        let (n, d) = (self.states, self.measures);
-        let copy = |to: &mut Vec<f64>, from: &[f64], len: usize| {
-            to.extend_from_slice(from.get(row * len..(row + 1) * len).unwrap_or_default());
-        };
-        copy(&mut self.time, &other.time, 1);
-        copy(&mut self.mean, &other.mean, n);
-        copy(&mut self.cov, &other.cov, n * n);
-        copy(&mut self.factor, &other.factor, n * n);
-        copy(&mut self.filtered_mean, &other.filtered_mean, n);
-        copy(&mut self.filtered_cov, &other.filtered_cov, n * n);
-        copy(&mut self.predicted_mean, &other.predicted_mean, n);
-        copy(&mut self.predicted_cov, &other.predicted_cov, n * n);
-        copy(&mut self.innovation, &other.innovation, d);
-        copy(&mut self.innovation_cov, &other.innovation_cov, d * d);
-        copy(&mut self.nis, &other.nis, 1);
-        copy(&mut self.log_likelihood, &other.log_likelihood, 1);
-        self.nis_dof.extend(other.nis_dof.get(row));
+        for ((to, len), (from, _)) in self.arrays_mut().into_iter().zip(other.arrays()) {
+            to.extend_from_slice(&from[row * len..(row + 1) * len]);
+        }
+        self.nis_dof.push(other.nis_dof[row]);
+        true
     }
 
     /// Takes off the rows from `row` on.
     pub(crate) fn split_off(&mut self, row: usize) -> Self {
-        let (n, d) = (self.states, self.measures);
-        let off = |of: &mut Vec<f64>, len: usize| of.split_off((row * len).min(of.len()));
-        Self {
-            time: off(&mut self.time, 1),
-            mean: off(&mut self.mean, n),
-            cov: off(&mut self.cov, n * n),
-            factor: off(&mut self.factor, n * n),
-            filtered_mean: off(&mut self.filtered_mean, n),
-            filtered_cov: off(&mut self.filtered_cov, n * n),
-            predicted_mean: off(&mut self.predicted_mean, n),
-            predicted_cov: off(&mut self.predicted_cov, n * n),
-            innovation: off(&mut self.innovation, d),
-            innovation_cov: off(&mut self.innovation_cov, d * d),
-            nis: off(&mut self.nis, 1),
-            nis_dof: self.nis_dof.split_off(row),
-            log_likelihood: off(&mut self.log_likelihood, 1),
-            ..*self
+        let mut off = Self::new(self.states, self.measures, self.smoothed);
+        for ((to, len), (from, _)) in off.arrays_mut().into_iter().zip(self.arrays_mut()) {
+            *to = from.split_off(row * len);
         }
+        off.nis_dof = self.nis_dof.split_off(row);
+        off
     }
 
     /// Writes row `from` of other estimates of the same trajectory over row `row`.
     pub(crate) fn copy_row(&mut self, row: usize, other: &Self, from: usize) {
-        let (n, d) = (self.states, self.measures);
-        let copy = |to: &mut Vec<f64>, source: &[f64], len: usize| {
-            if !to.is_empty() {
-                to[row * len..(row + 1) * len].copy_from_slice(&source[from * len..(from + 1) * len]);
-            }
-        };
-        copy(&mut self.mean, &other.mean, n);
-        copy(&mut self.cov, &other.cov, n * n);
-        copy(&mut self.factor, &other.factor, n * n);
-        copy(&mut self.filtered_mean, &other.filtered_mean, n);
-        copy(&mut self.filtered_cov, &other.filtered_cov, n * n);
-        copy(&mut self.predicted_mean, &other.predicted_mean, n);
-        copy(&mut self.predicted_cov, &other.predicted_cov, n * n);
-        copy(&mut self.innovation, &other.innovation, d);
-        copy(&mut self.innovation_cov, &other.innovation_cov, d * d);
-        copy(&mut self.nis, &other.nis, 1);
-        copy(&mut self.log_likelihood, &other.log_likelihood, 1);
+        for ((to, len), (source, _)) in self.arrays_mut().into_iter().zip(other.arrays()) {
+            to[row * len..(row + 1) * len].copy_from_slice(&source[from * len..(from + 1) * len]);
+        }
         self.nis_dof[row] = other.nis_dof[from];
     }
 

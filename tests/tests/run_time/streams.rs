@@ -6,7 +6,7 @@ use core::sync::atomic::{AtomicUsize, Ordering};
 use givens::batch::Track;
 use givens::filter::{Fault, Gaussian, StepError};
 use givens::model::{At, Noise, Observation, Transition};
-use givens::registry::{Choice, resolve};
+use givens::registry::{Choice, Precision, resolve};
 use givens::scalar::Real;
 use givens::{Data, Ended, Estimates, Goal, Outcome, Row, Sink, Stream};
 use givens_tests::cases;
@@ -96,6 +96,9 @@ proptest! {
                 let whole = choice.run(model, sensor, data.rows(), 0.0, prior, goal, &[]);
                 agrees(&name, goal, 31, &whole, |by, sink| choice.stream(&track, by, sink));
             }
+            let (single, goal) = (Choice { precision: Precision::F32, ..choice }, Goal::Interval);
+            let whole = single.run(model, sensor, data.rows(), 0.0, prior, goal, &[]);
+            agrees(&format!("{name} in f32"), goal, 31, &whole, |by, sink| single.stream(&track, by, sink));
         }
     }
 
@@ -114,6 +117,9 @@ proptest! {
                 let whole = choice.run_continuous(model, sensor, data.rows(), 0.0, prior, goal, &at);
                 agrees(&name, goal, 17, &whole, |by, sink| choice.stream_continuous(&track, by, sink));
             }
+            let (single, goal) = (Choice { precision: Precision::F32, ..choice }, Goal::Interval);
+            let whole = single.run_continuous(model, sensor, data.rows(), 0.0, prior, goal, &at);
+            agrees(&format!("{name} in f32"), goal, 17, &whole, |by, sink| single.stream_continuous(&track, by, sink));
         }
     }
 }

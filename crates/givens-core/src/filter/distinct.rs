@@ -22,6 +22,13 @@ pub(super) fn distinct<T: Real>(
 ) -> Result<T::Mask, Fault> {
     let n = mean.len();
     let far = T::of(far(reach, n, T::EPSILON));
+    let mut apart = T::Mask::splat(true);
+    for i in 0..n {
+        apart = apart & (far * mean[i].abs()).lt(before[n + i]);
+    }
+    if apart.all() {
+        return Ok(T::Mask::splat(false));
+    }
     let mut health = Health::<T>::good();
     for i in 0..n {
         let (m, floor) = (mean[i], floor[i]);
@@ -105,12 +112,19 @@ fn deviation<T: Real>(row: &[T]) -> T {
 pub(super) fn lower<T: Real>(reach: f64, before: &[T], mean: &[T], factor: &[T], floor: &mut [T]) {
     let n = mean.len();
     let far = T::of(far(reach, n, T::EPSILON));
+    // the diagonal is part of a standard deviation, and mostly says enough
+    let mut apart = T::Mask::splat(true);
+    for i in 0..n {
+        apart = apart & (far * mean[i].abs()).lt(factor[i * n + i].abs());
+    }
+    if apart.all() {
+        floor.fill(T::zero());
+        return;
+    }
     let (means, deviations) = before.split_at(n);
     for i in 0..n {
         let (m, floor) = (mean[i], &mut floor[i]);
-        let (row, near) = (&factor[i * n..=i * n + i], far * m.abs());
-        // the diagonal is part of the sum, and often says enough
-        if near.lt(row[i].abs()).all() || near.lt(deviation(row)).all() {
+        if (far * m.abs()).lt(deviation(&factor[i * n..=i * n + i])).all() {
             *floor = T::zero();
             continue;
         }

@@ -28,26 +28,14 @@ outlined! {
 fn triangularised<T: Real>(a: &mut [T], rows: usize, columns: usize, stride: usize) -> Health<T> {
     debug_assert!(stride >= rows.max(columns) && a.len() >= rows * stride);
     let mut health = Health::good();
-    let mut end = 0;
     for i in tria_in_packs(a, rows, columns, stride)..rows {
-        end = reach(&a[i * stride..][..columns], end);
         // the number of reflections is that of the rows, which lets the compiler know it, until one has nothing left
-        if !reflect(a, i, i, [rows, end.max(i), stride], &mut health) {
+        if !reflect(a, i, i, [rows, columns, stride], &mut health) {
             echelon(a, i, [rows, columns, stride], &mut health);
             break;
         }
     }
     health
-}
-
-/// Where the zeros begin that the row and those above it end with: no reflection so far goes beyond.
-#[inline(always)]
-fn reach<T: Real>(row: &[T], end: usize) -> usize {
-    let mut own = row.len();
-    while own > end && row[own - 1].same(T::zero()).all() {
-        own -= 1;
-    }
-    own
 }
 
 /// The rest from row i on, of which nothing is left.

@@ -130,6 +130,9 @@ pub const fn expansion_scratch(n: usize, q: usize, beside: usize) -> usize {
     n.saturating_mul(q).saturating_add(n).saturating_add(duals)
 }
 
+/// States whose duals may stay in registers.
+const FEW: usize = 16;
+
 /// The drift and its two Itô derivatives by duals, point after point: what [`Sde::expansion_points`] provides, for
 /// models that override it and sometimes cannot do better.
 #[inline(always)]
@@ -148,6 +151,10 @@ pub fn expansion_by_duals<T: Real, M: Sde + ?Sized>(
     let (here, rest) = rest.split_at_mut(n);
     let (point, rest) = as_duals(rest).split_at_mut(n);
     let (image, rest) = rest.split_at_mut(n);
+    // in arrays of its own, the compiler keeps a point of a model of known length in registers
+    let (mut own_point, mut own_image) = ([Dual2::<T>::zero(); FEW], [Dual2::<T>::zero(); FEW]);
+    let (point, image) =
+        if n <= FEW { (&mut own_point[..n], &mut own_image[..n]) } else { (point, image) };
     let (u, rest) = rest.split_at_mut(at.u.len());
     let p = &mut rest[..at.p.len()];
     for (dual, &v) in u.iter_mut().zip(at.u).chain(p.iter_mut().zip(at.p)) {
@@ -155,20 +162,26 @@ pub fn expansion_by_duals<T: Real, M: Sde + ?Sized>(
     }
     let (u, p) = (&*u, &*p);
     let when = |speed: T| At { t: Dual2::along(at.t, speed), dt: Dual2::constant(at.dt), u, p };
+    let follows = model.diffusion_varies() == Varies::WithState;
     for k in 0..points {
         for i in 0..n {
             here[i] = x[i * points + k];
         }
-        model.diffusion(at, here, g);
-        l0.iter_mut().skip(k).step_by(points).for_each(|sum| *sum = T::zero());
+        if k == 0 || follows {
+            model.diffusion(at, here, g);
+        }
         for j in 0..q.max(1) {
             for i in 0..n {
                 point[i] = Dual2::along(here[i], if q == 0 { T::zero() } else { g[i * q + j] });
             }
             model.drift(&when(T::zero()), point, image);
             for i in 0..n {
-                f[i * points + k] = image[i].v;
-                l0[i * points + k] += T::of(0.5) * image[i].dd;
+                let (place, half) = (i * points + k, T::of(0.5) * image[i].dd);
+                if j == 0 {
+                    (f[place], l0[place]) = (image[i].v, half);
+                } else {
+                    l0[place] += half;
+                }
                 if q > 0 && !lf.is_empty() {
                     lf[(i * q + j) * points + k] = image[i].d;
                 }

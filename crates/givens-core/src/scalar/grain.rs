@@ -16,14 +16,13 @@ pub(crate) struct Grain {
 
 impl Grain {
     /// That of `T`, if it is one of those that a model behind a pointer is compiled for: `f64` and `f32` up to two derivatives
-    /// deep, and packs of them, but not those of AVX-512, one deep.
+    /// deep, and packs of them in registers one deep.
     #[inline(always)]
     pub fn of<T: Real>() -> Option<Self> {
-        match made_of::<T, f64, pack::Narrow>() {
+        match made_of::<T, f64, pack::Narrow, pack::Wide>() {
             Some((set, depth)) => Some(Self { single: false, set, depth }),
-            None => {
-                made_of::<T, f32, pack::NarrowSingle>().map(|(set, depth)| Self { single: true, set, depth })
-            }
+            None => made_of::<T, f32, pack::NarrowSingle, pack::WideSingle>()
+                .map(|(set, depth)| Self { single: true, set, depth }),
         }
     }
 
@@ -40,22 +39,25 @@ impl Grain {
     }
 }
 
-/// Whether `T` is made of floats `E` or packs `P` of them: the set and the depth.
+/// Whether `T` is made of floats `E` or of packs `P` or `W` of them: the set and the depth.
 #[inline(always)]
-fn made_of<T: Real, E: Real, P: Real>() -> Option<(Option<InstructionSet>, usize)> {
-    if is::<T, E>() {
-        return Some((None, 0));
-    }
-    if is::<T, Dual2<E>>() {
-        return Some((None, 1));
-    }
+fn made_of<T: Real, E: Real, P: Real, W: Real>() -> Option<(Option<InstructionSet>, usize)> {
     if is::<T, Dual2<Dual2<E>>>() {
         return Some((None, 2));
     }
-    if is::<T, P>() {
-        return Some((Some(pack::NARROW), 0));
+    let (numbers, narrow, wide) = (depth_over::<T, E>(), depth_over::<T, P>(), depth_over::<T, W>());
+    let in_packs = |depth: usize, set| (Some(set), depth);
+    match (numbers, narrow) {
+        (Some(depth), _) => Some((None, depth)),
+        (None, Some(depth)) => Some(in_packs(depth, pack::NARROW)),
+        (None, None) => wide.map(|depth| in_packs(depth, pack::WIDE)),
     }
-    is::<T, Dual2<P>>().then_some((Some(pack::NARROW), 1))
+}
+
+/// How often `U` is derived in `T`, at most once.
+#[inline(always)]
+fn depth_over<T: Real, U: Real>() -> Option<usize> {
+    if is::<T, U>() { Some(0) } else { is::<T, Dual2<U>>().then_some(1) }
 }
 
 #[inline(always)]

@@ -83,6 +83,8 @@ pub trait Real:
     type Mask: Mask;
     /// The distance from one to the next larger number of the underlying float.
     const EPSILON: f64;
+    /// How many times the number is derived.
+    const DEPTH: usize = 0;
 
     /// Does work on such numbers in a function of its own, compiled with the instructions that they need: a place where code
     /// over packs need not be inlined any further.

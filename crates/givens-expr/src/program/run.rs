@@ -69,8 +69,11 @@ impl<T: Real, const K: usize> Inside for Evaluation<'_, T, K> {
         }
         run::<T, 1>(scalar_code, scalars.as_chunks_mut().0);
         let mut done = 0;
-        self.blocks::<BLOCK>(&mut done, scalars, memory);
-        self.blocks::<2>(&mut done, scalars, memory);
+        // programs derive by symbol and are hardly ever asked for duals, whose operations side by side are most of the machine's code
+        if T::DEPTH == 0 {
+            self.blocks::<BLOCK>(&mut done, scalars, memory);
+            self.blocks::<2>(&mut done, scalars, memory);
+        }
         self.blocks::<1>(&mut done, scalars, memory);
     }
 }

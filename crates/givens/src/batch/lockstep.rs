@@ -23,7 +23,6 @@ pub(super) fn width<E: Element>(vectors: InstructionSet) -> usize {
     struct Width;
     impl<E: Element> Job<E> for Width {
         type Output = usize;
-        const AVX512: bool = false;
         #[inline(always)]
         fn run<P: Pack<Element = E>>(self) -> usize {
             P::WIDTH
@@ -35,7 +34,6 @@ pub(super) fn width<E: Element>(vectors: InstructionSet) -> usize {
 impl<X: Over<M>, M, H: Observation, E: Element> Job<E> for Lockstep<'_, '_, X, M, H> {
     /// For each track what came of it, or none if it is to be run alone.
     type Output = Vec<Option<Outcome>>;
-    const AVX512: bool = false;
 
     #[inline(always)]
     fn run<P: Pack<Element = E>>(self) -> Self::Output {

@@ -92,17 +92,9 @@ pub struct Batch<'a> {
 }
 
 impl Default for Batch<'_> {
-    /// Filtering, on all cores, with the vectors of the machine that pay: those of 512 bits gain too little over those of 256
-    /// to be compiled as well.
+    /// Filtering, on all cores, with the widest vectors of the machine.
     fn default() -> Self {
-        let vectors = [InstructionSet::Avx2, InstructionSet::Neon].into_iter().find(|set| set.available());
-        Self {
-            goal: Goal::Filter,
-            threads: None,
-            vectors: vectors.unwrap_or(InstructionSet::Portable),
-            cancel: None,
-            rows: None,
-        }
+        Self { goal: Goal::Filter, threads: None, vectors: InstructionSet::best(), cancel: None, rows: None }
     }
 }
 

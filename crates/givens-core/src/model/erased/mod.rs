@@ -112,7 +112,6 @@ struct Inside<'s, M> {
 
 impl<E: Element, M: Answers> Job<E> for Inside<'_, M> {
     type Output = ();
-    const AVX512: bool = false;
     #[inline(always)]
     fn run<P: Pack<Element = E>>(self) {
         match self.depth {

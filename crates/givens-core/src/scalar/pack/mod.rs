@@ -57,8 +57,8 @@ mod narrow {
 }
 
 pub(crate) use narrow::NARROW;
-/// The packs of `f64` and of `f32` that models behind a pointer are compiled for, and their set: of vectors twice as wide,
-/// many machines do not get more.
+/// The packs of `f64` and of `f32` whose lanes are the points of one filter, and their set: of vectors twice as wide, it would
+/// leave most lanes empty.
 pub(super) use narrow::{Narrow, NarrowSingle};
 
 /// The lanes of that of `f64`; one where the machine has no registers for them.
@@ -67,6 +67,16 @@ pub(crate) const LANES: usize = match NARROW {
     InstructionSet::Neon => 2,
     _ => 4,
 };
+
+/// The packs beside these that models behind a pointer are compiled for, where the machine may have wider ones.
+#[cfg(target_arch = "x86_64")]
+pub(super) type Wide = avx512::Avx512F64;
+#[cfg(target_arch = "x86_64")]
+pub(super) type WideSingle = avx512::Avx512F32;
+#[cfg(target_arch = "x86_64")]
+pub(super) const WIDE: InstructionSet = InstructionSet::Avx512;
+#[cfg(not(target_arch = "x86_64"))]
+pub(super) use {NARROW as WIDE, Narrow as Wide, NarrowSingle as WideSingle};
 
 pub use set::{InstructionSet, Job};
 pub use tracks::{gather, scatter};

@@ -11,14 +11,20 @@ use std::time::Instant;
 const STEPS: &[Step] = &[
     Step::cargo("format", "fmt --all --check"),
     Step::cargo("format of the peers", "fmt --manifest-path benchmarks/peers/Cargo.toml --check"),
+    Step::cargo("format of the embedded example", "fmt --manifest-path examples/embedded/Cargo.toml --check"),
     Step::cargo(
         "lints",
         "clippy --workspace --all-targets --features givens-tests/reports,givens-benchmarks/scaling -- -D warnings",
+    ),
+    Step::cargo(
+        "lints of the embedded example",
+        "clippy --quiet --manifest-path examples/embedded/Cargo.toml --target-dir target/embedded --locked -- -D warnings",
     ),
     Step::cargo("documentation", "doc --workspace --no-deps").with_env(&[("RUSTDOCFLAGS", "-D warnings")]),
     Step::cargo("givens-core without std", "build -p givens-core --no-default-features"),
     Step::cargo("build", "test --workspace --no-run"),
     Step::cargo("tests", "test --workspace --no-fail-fast"),
+    Step::cargo("embedded", "xtask embedded"),
     Step::cargo("instructions", "xtask instructions --where-valgrind-is"),
     Step::of("python: environment", "python3", "-m venv --clear target/python"),
     Step::python("python: what the checks need", "-m pip install -q -r python/requirements-ci.txt"),

@@ -3,6 +3,7 @@
 
 mod bench;
 mod ci;
+mod embedded;
 mod finding;
 mod instructions;
 mod reproduction;
@@ -25,7 +26,10 @@ const USAGE: &str = "usage:
                       something grows, into docs/scaling.md
   cargo xtask instructions [--bless | --where-valgrind-is]
                       counts the instructions of fixed work under valgrind, against benchmarks/instructions.toml; without
-                      valgrind an error, or nothing";
+                      valgrind an error, or nothing
+  cargo xtask embedded
+                      builds examples/embedded without std, runs it against the textbook, looks for an allocator among its
+                      symbols, and tells its flash, RAM and stack";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -35,6 +39,7 @@ fn main() -> ExitCode {
         ["ci"] => ci::run(&root()),
         ["reproduction", pages] => reproduction::run(&root(), Path::new(pages)),
         ["bench", options @ ..] => bench::run(&root(), options),
+        ["embedded"] => embedded::run(&root()),
         ["instructions"] => instructions::run(&root(), false),
         ["instructions", "--where-valgrind-is"] => !instructions::can() || instructions::run(&root(), false),
         ["instructions", "--bless"] => instructions::run(&root(), true),

@@ -30,7 +30,8 @@ pub struct Prior<'a> {
 
 impl<'m, X: Over<M>, M, T: Real, B: AsMut<[T]>> Filter<'m, X, M, T, B> {
     /// Starts a filter in the caller's memory of at least [`memory_len`](Self::memory_len) scalars. With `smoothing`,
-    /// every prediction also leaves what a smoother needs to come [`back`](Self::backward) over it.
+    /// every prediction also leaves what a smoother needs to come [`back`](Self::backward) over it. An array moves with the
+    /// filter, also while it starts, and the stack then holds several; where it is short, lend a slice.
     ///
     /// # Errors
     /// An option out of its range, a slice of the wrong length, a number that is not finite, or beyond the range of `T`.

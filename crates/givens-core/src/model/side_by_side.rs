@@ -12,6 +12,7 @@ pub(crate) fn filled<T: Real, G: Map>(g: &G, points: usize) -> usize {
 
 /// Scalars before the first one at which a pack may start.
 #[inline(always)]
+#[allow(clippy::modulo_one, reason = "some machines have one lane")]
 pub(crate) fn misaligned<T: Real>(memory: &[T]) -> usize {
     if lanes_of_its_own::<T>() {
         return 0;

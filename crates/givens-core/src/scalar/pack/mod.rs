@@ -30,26 +30,36 @@ mod scalar;
 mod set;
 mod tracks;
 
+// without `std`, nobody asks the machine: there it is what the program is built for
+#[cfg(all(
+    target_arch = "x86_64",
+    any(feature = "std", all(target_feature = "avx2", target_feature = "fma"))
+))]
+mod narrow {
+    pub(in crate::scalar) type Narrow = super::avx2::Avx2F64;
+    pub(in crate::scalar) type NarrowSingle = super::avx2::Avx2F32;
+    pub(crate) const NARROW: super::InstructionSet = super::InstructionSet::Avx2;
+}
+#[cfg(all(target_arch = "aarch64", target_feature = "neon"))]
+mod narrow {
+    pub(in crate::scalar) type Narrow = super::neon::NeonF64;
+    pub(in crate::scalar) type NarrowSingle = super::neon::NeonF32;
+    pub(crate) const NARROW: super::InstructionSet = super::InstructionSet::Neon;
+}
+#[cfg(not(any(
+    all(target_arch = "x86_64", any(feature = "std", all(target_feature = "avx2", target_feature = "fma"))),
+    all(target_arch = "aarch64", target_feature = "neon")
+)))]
+mod narrow {
+    pub(in crate::scalar) type Narrow = super::array::Array<f64, 4>;
+    pub(in crate::scalar) type NarrowSingle = super::array::Array<f32, 8>;
+    pub(crate) const NARROW: super::InstructionSet = super::InstructionSet::Portable;
+}
+
+pub(crate) use narrow::NARROW;
 /// The packs of `f64` and of `f32` whose lanes are the points of one filter, and their set: of vectors twice as wide, it would
 /// leave most lanes empty.
-#[cfg(target_arch = "x86_64")]
-pub(super) type Narrow = avx2::Avx2F64;
-#[cfg(target_arch = "x86_64")]
-pub(super) type NarrowSingle = avx2::Avx2F32;
-#[cfg(target_arch = "x86_64")]
-pub(crate) const NARROW: InstructionSet = InstructionSet::Avx2;
-#[cfg(all(target_arch = "aarch64", target_feature = "neon"))]
-pub(super) type Narrow = neon::NeonF64;
-#[cfg(all(target_arch = "aarch64", target_feature = "neon"))]
-pub(super) type NarrowSingle = neon::NeonF32;
-#[cfg(all(target_arch = "aarch64", target_feature = "neon"))]
-pub(crate) const NARROW: InstructionSet = InstructionSet::Neon;
-#[cfg(not(any(target_arch = "x86_64", all(target_arch = "aarch64", target_feature = "neon"))))]
-pub(super) type Narrow = array::Array<f64, 4>;
-#[cfg(not(any(target_arch = "x86_64", all(target_arch = "aarch64", target_feature = "neon"))))]
-pub(super) type NarrowSingle = array::Array<f32, 8>;
-#[cfg(not(any(target_arch = "x86_64", all(target_arch = "aarch64", target_feature = "neon"))))]
-pub(crate) const NARROW: InstructionSet = InstructionSet::Portable;
+pub(super) use narrow::{Narrow, NarrowSingle};
 
 /// The lanes of that of `f64`; one where the machine has no registers for them.
 pub(crate) const LANES: usize = match NARROW {

@@ -35,3 +35,13 @@ def test_runs_beyond_the_free_memory_are_refused(monkeypatch):
         gv.simulate(MODEL, LENGTH, T[:3], prior=PRIOR, seed=1, runs=10**7)
     monkeypatch.setattr(_memory, "free", lambda: None)
     assert gv.simulate(MODEL, LENGTH, T[:3], prior=PRIOR, seed=1, runs=10**6).x.shape == (10**6, 3, 2)
+
+
+@pytest.mark.parametrize("tracks", [1, 4])
+def test_estimates_beyond_the_free_memory_are_refused(monkeypatch, tracks):
+    monkeypatch.setattr(_memory, "free", lambda: 2**26)
+    rows = 400_000
+    z = np.full((tracks, rows // tracks, 1), np.nan)
+    with pytest.raises(gv.InputError, match=r"^the estimates of 400000 rows need 1.41e8 bytes, more than there is") as caught:
+        gv.smooth(MODEL, LENGTH, np.arange(rows // tracks) + 1.0, z[0] if tracks == 1 else z, prior=PRIOR)
+    assert "fewer tracks" in str(caught.value)

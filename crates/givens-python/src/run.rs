@@ -47,9 +47,14 @@ impl Job {
         let prior = belief(model, mean, cov)?;
         let data = rows(model, t0, time, z, u)?;
         let goal = self::goal(goal, value, &numbers(time), data.start())?;
-        room_for_rows(data.len(), Stream::bytes_per_row(goal, prior.mean().len(), data.measures()))?;
         let at = at.map(|at| times(at, data.start())).transpose()?;
         Ok(Self { model: model.clone(), choice: choice.0, prior, data, goal, at })
+    }
+
+    /// Bytes that all its estimates need.
+    fn bytes(&self) -> usize {
+        let each = Stream::bytes_per_row(self.goal, self.prior.mean().len(), self.data.measures());
+        self.data.len().saturating_mul(each)
     }
 
     /// Runs on this thread.
@@ -87,6 +92,7 @@ pub fn run(
 ) -> Result<Estimates> {
     let data = (&time, &z, u.as_ref());
     let job = Job::new(model, choice, (&mean, &cov, t0), data, (goal, goal_value), at.as_ref())?;
+    room_for_rows(py, job.data.len(), job.bytes())?;
     let goes_back = matches!(job.goal, Goal::Interval | Goal::Lag(_));
     if goes_back && job.data.len() >= LONG && !model.needs_python() {
         let (job, outcome) = aside(py, move || {
@@ -133,6 +139,8 @@ pub fn run_batch<'py>(
     };
     let jobs = tracks.iter().enumerate().map(of).collect::<PyResult<Vec<Job>>>()?;
     drop(tracks);
+    let rows = jobs.iter().map(|job| job.data.len()).sum();
+    room_for_rows(py, rows, jobs.iter().fold(0, |sum: usize, job| sum.saturating_add(job.bytes())))?;
     if jobs.len() > 1 && alike(&jobs) {
         let outcomes = packs::run(py, &jobs, self::threads(threads)?)?;
         let all = jobs.iter().zip(outcomes).map(|(job, outcome)| job.estimates(py, outcome));

@@ -59,7 +59,8 @@ pub trait Sde {
     /// Writes f(x, t) to `dx`; both have length n. [`At::dt`] is not to be used.
     fn drift<T: Real>(&self, at: &At<T>, x: &[T], dx: &mut [T]);
 
-    /// Writes G, n × q row by row, per square root of the unit of time.
+    /// Writes G, n × q row by row, per square root of the unit of time. Where it does not follow the state
+    /// ([`diffusion_varies`](Self::diffusion_varies)) it is asked for once for all points.
     fn diffusion<T: Real>(&self, at: &At<T>, x: &[T], g: &mut [T]);
 
     /// What G depends on. A G that reads the state must say so: a filter refuses to start where it finds out otherwise.

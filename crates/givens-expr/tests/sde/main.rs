@@ -5,7 +5,7 @@ mod expansion;
 mod filters;
 mod parts;
 
-use givens_core::model::{At, Sde};
+use givens_core::model::{At, Sde, Varies};
 use givens_core::scalar::Real;
 use givens_expr::{Graph, Input, Meaning, ModelError, ModelSde, Node, Scope, SdeParts, parse};
 
@@ -64,6 +64,9 @@ impl Sde for ByDuals<'_> {
     }
     fn diffusion<T: Real>(&self, at: &At<T>, x: &[T], g: &mut [T]) {
         self.0.diffusion(at, x, g);
+    }
+    fn diffusion_varies(&self) -> Varies {
+        self.0.diffusion_varies()
     }
 }
 

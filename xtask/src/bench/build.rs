@@ -85,7 +85,7 @@ pub fn ours_for_counting(root: &Path, target: &Path) -> Result<PathBuf, String> 
 
 /// The same with what the scaling study needs.
 pub fn ours_for_scaling(root: &Path, target: &Path) -> Result<PathBuf, String> {
-    ours_with(root, target, &["--features", "scaling"])
+    ours_with(root, target, &["--no-default-features", "--features", "scaling"])
 }
 
 fn ours_with(root: &Path, target: &Path, words: &[&str]) -> Result<PathBuf, String> {

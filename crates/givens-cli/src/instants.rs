@@ -24,7 +24,8 @@ impl Instants {
             times.dedup_by(|a, b| a.0 == b.0);
             check(text, &times, plan, track, begin)?;
             for (time, text) in &mut times {
-                if let Some(row) = track.rows.iter().find(|row| row.time == *time) {
+                let first = track.rows.partition_point(|row| row.time < *time);
+                if let Some(row) = track.rows.get(first).filter(|row| row.time == *time) {
                     text.clone_from(&row.time_text);
                 }
             }

@@ -3,7 +3,7 @@
 use crate::filter::Over;
 use crate::scalar::Element;
 
-/// A method whose numbers are `f32`, for whole runs: half the memory, and twice as many tracks in a pack.
+/// A method whose numbers are `f32`, for whole runs: half the memory of filter and smoother, and twice as many tracks in a pack.
 ///
 /// Estimates are given in `f64` all the same, and hold what the arithmetic of `f32` gave: about seven digits, of a mean as of
 /// a standard deviation. Times and the differences between them are kept in `f64`; a model sees its step, and the time, as

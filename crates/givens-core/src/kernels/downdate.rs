@@ -10,8 +10,8 @@ outlined! {
     /// `v` (length n) is used up, and the triangle above the diagonal, which must be zero, stays so. The square of pivot k
     /// is r² = L_kk² − v_k², known to τ = e max(L_kk, |v_k|), where e is 64 ε ‖row k‖ and what the errors of the rows
     /// above have made of it: below −τ it is the failure that health names; within τ of zero the column is zero and the
-    /// downdate ends. Where L_kk and v_k are themselves zero to rounding, what stands below L_kk is rotated into the
-    /// columns after it, and the downdate goes on with the next row.
+    /// downdate ends. Where L_kk and v_k are themselves zero to rounding, or their squares are and what stands below them differs,
+    /// what stands below L_kk is rotated into the columns after it, and the downdate goes on with the next row.
     ///
     /// ```
     /// use givens_core::kernels::downdate;
@@ -37,11 +37,15 @@ fn downdated<T: Real>(l: &mut [T], n: usize, stride: usize, v: &mut [T]) -> Heal
         }
         let size = pivot.max(vk.abs());
         let rounding = T::of(64.0 * T::EPSILON) * own;
-        let absent = size.le(rounding);
+        let mut absent = size.le(rounding);
+        let mut spent = r2.abs().le(rounding * size) & !untouched & !absent;
+        if spent.any() {
+            let torn = spent & torn(l, n, stride, k, v) & (size * size).le(rounding * own);
+            (absent, spent) = (absent | torn, spent & !torn);
+        }
         if absent.any() {
             fold(l, n, stride, k, absent);
         }
-        let spent = r2.abs().le(rounding * size) & !untouched & !absent;
         let negative = !(-(rounding * size)).le(r2) | !r2.finite();
         health.note(!untouched & !absent & negative, k);
         let cleared = spent | absent;
@@ -68,6 +72,18 @@ fn downdated<T: Real>(l: &mut [T], n: usize, stride: usize, v: &mut [T]) -> Heal
         v[k] = zero;
     }
     health
+}
+
+/// Whether what stands below pivot k does not go with it: such a pivot, where its square is rounding, is noise, and what stands
+/// below it is none.
+#[inline(never)]
+fn torn<T: Real>(l: &[T], n: usize, stride: usize, k: usize, v: &[T]) -> T::Mask {
+    let (side, mut torn) = (T::one().copysign(v[k]), T::Mask::splat(false));
+    for i in k + 1..n {
+        let below = l[i * stride + k];
+        torn = torn | (T::of(0.5) * below.abs()).lt((below - side * v[i]).abs());
+    }
+    torn
 }
 
 /// Rotates what stands below pivot k into the columns after it, in the lanes of `absent`: that of a pivot of rounding may
@@ -101,6 +117,18 @@ mod tests {
         assert_eq!((l[4], l[7]), (0.0, 0.0));
         // the variance of the last row, 9 + 16 + 25, less 1
         assert!((l[6] * l[6] + l[8] * l[8] - 49.0).abs() < 1e-13);
+    }
+
+    // a position known but for its way within a short gap, whose points' rounding is larger than that, and its speed
+    #[test]
+    fn a_pivot_of_noise_does_not_take_its_column_with_it() {
+        for noise in [0.9e-4_f32, 1e-4, -1.1e-4] {
+            let mut l = [3.0_f32, 0.0, 0.0, 2.0, 1e-4, 0.0, 0.5, 0.02, 0.01];
+            let mut v = [0.0, noise, 1e-6];
+            assert!(super::downdate(&mut l, 3, 3, &mut v).failed().is_none());
+            let left = l[7] * l[7] + l[8] * l[8];
+            assert!((left - 5e-4).abs() < 1e-6, "{noise}: {l:?}");
+        }
     }
 
     #[test]

@@ -46,5 +46,50 @@ pub(super) fn units<M, H>(tracks: &[Track<M, H>], width: usize) -> Vec<Unit> {
         }
         units.push(Unit { tracks: vec![k] });
     }
+    let (hollow, mut units): (Vec<_>, Vec<_>) =
+        units.into_iter().partition(|unit| is_hollow(unit, tracks, width));
+    units.extend(hollow.into_iter().flat_map(|unit| unit.tracks).map(|k| Unit { tracks: vec![k] }));
+    units.sort_by_key(|unit| core::cmp::Reverse(tracks[unit.tracks[0]].data.len()));
     units
+}
+
+/// Rows of all lanes together from which a pack's memory counts.
+const MANY: usize = 1 << 16;
+
+/// Whether less than a third of the rows that a pack's lanes have room for would be used: a long track and a short one, or two
+/// long ones where there are eight lanes. Alone they take as little time, and far less memory.
+fn is_hollow<M, H>(unit: &Unit, tracks: &[Track<M, H>], width: usize) -> bool {
+    let rows = |&k: &usize| tracks[k].data.len();
+    let room = width * unit.tracks.first().map_or(0, rows);
+    unit.tracks.len() > 1 && room > MANY && room > 3 * unit.tracks.iter().map(rows).sum::<usize>()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Data;
+    use crate::filter::Gaussian;
+
+    fn sizes(lengths: &[usize], width: usize) -> Vec<Vec<usize>> {
+        let data: Vec<Data> = lengths
+            .iter()
+            .map(|&rows| {
+                let mut data = Data::new(0).starting_at(0.0);
+                (0..rows).for_each(|k| data.push(k as f64, &[]).unwrap());
+                data
+            })
+            .collect();
+        let prior = Gaussian::from_std(&[0.0], &[1.0]).unwrap();
+        let tracks: Vec<Track<(), ()>> = data.iter().map(|data| Track::new(&(), &(), data, &prior)).collect();
+        units(&tracks, width).iter().map(|unit| unit.tracks.iter().map(|&k| lengths[k]).collect()).collect()
+    }
+
+    #[test]
+    fn packs_are_of_nearly_one_length_and_never_mostly_empty() {
+        assert_eq!(sizes(&[3, 9, 8, 1, 7], 2), [vec![9, 8], vec![7, 3], vec![1]]);
+        assert_eq!(sizes(&[20_000, 1], 4), [vec![20_000], vec![1]]);
+        assert_eq!(sizes(&[9_000, 9_000], 8), [vec![9_000], vec![9_000]]);
+        assert_eq!(sizes(&[9_000, 9_000, 9_000], 8), [vec![9_000; 3]]);
+        assert_eq!(sizes(&[50, 1], 8), [vec![50, 1]]);
+    }
 }

@@ -26,7 +26,7 @@ impl Explain<'_> {
         let double = self.face.set("precision", "f64");
         match remedy {
             Some(remedy) => format!("{remedy}; or compute in f64 ({double})"),
-            None => double,
+            None => format!("compute in f64 ({double})"),
         }
     }
 

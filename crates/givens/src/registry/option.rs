@@ -135,7 +135,7 @@ pub const OPTIONS: &[OptionInfo] = &[
         "error of a step, in standard deviations, that is accepted (1e-6)",
     ),
     option("atol", Reader::AdaptiveSolver, "the same in the states' units, added to it (0)"),
-    option("precision", Reader::Every, "what it computes with: f64 (default) | f32"),
+    option("precision", Reader::Every, "what it computes with: f64 (default) | f32 (square root)"),
     option("alpha", Reader::Rule(RuleName::Unscented), "spread of the points (1)"),
     option("beta", Reader::Rule(RuleName::Unscented), "added to the centre's weight (0)"),
     option("kappa", Reader::Rule(RuleName::Unscented), "the plain transform's parameter (3 - n)"),

@@ -52,7 +52,6 @@ pub fn offer(words: &str) -> Result<Entry<'static>, Failure> {
 
 impl Job<f64> for Work {
     type Output = f64;
-    const AVX512: bool = false;
 
     #[inline(always)]
     fn run<P: Pack<Element = f64>>(self) -> f64 {

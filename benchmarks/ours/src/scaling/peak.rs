@@ -24,7 +24,6 @@ struct Chains;
 
 impl Job<f64> for Chains {
     type Output = f64;
-    const AVX512: bool = false;
 
     #[inline(always)]
     fn run<P: Pack<Element = f64>>(self) -> f64 {

@@ -36,6 +36,10 @@ pub trait Computes<M>: Copy {
     type Number: Element;
     /// The method by itself.
     fn method(self) -> Self::Method;
+    /// The probability beyond which a measurement is not taken in, if there is a gate; see [`Gated`](crate::Gated).
+    fn gate(self) -> Option<f64> {
+        None
+    }
 }
 
 impl<M, X: Over<M>> Computes<M> for X {

@@ -29,12 +29,17 @@ pub enum Verdict {
 }
 
 impl Consistency {
-    /// Of a run over one trajectory, or of several together.
+    /// Of a run over one trajectory, or of several together: of the rows that were taken in, without those beyond a
+    /// [gate](crate::Gated).
     pub fn of<'a>(runs: impl IntoIterator<Item = &'a Estimates>) -> Self {
         let (mut nis, mut dof) = (0.0, 0);
         for est in runs {
-            dof += est.nis_dof.iter().sum::<usize>();
-            nis += est.nis.iter().filter(|x| !x.is_nan()).sum::<f64>();
+            for ((&x, &components), &gated) in est.nis.iter().zip(&est.nis_dof).zip(&est.gated) {
+                if !gated && !x.is_nan() {
+                    nis += x;
+                }
+                dof += if gated { 0 } else { components };
+            }
         }
         Self::of_sum(nis, dof)
     }

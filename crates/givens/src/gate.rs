@@ -12,7 +12,7 @@ use crate::scalar::Real;
 ///
 /// A row whose squared innovation νᵀ P_zz⁻¹ ν (NIS) is beyond the quantile of this probability, of the χ² distribution with as
 /// many degrees of freedom as components are there, is not taken in: the belief after it is the predicted one, as if nothing had
-/// been measured (docs/algorithms.md U6). [`Estimates::gated`](crate::Estimates::gated) marks it; its innovation and NIS are
+/// been measured (docs/algorithms.md U7). [`Estimates::gated`](crate::Estimates::gated) marks it; its innovation and NIS are
 /// those that were seen, and its log-likelihood is zero.
 ///
 /// Of a right filter over data without outliers, one row in ten thousand is beyond 0.9999, a usual choice. Without a
@@ -58,7 +58,7 @@ pub(crate) fn check(gate: f64) -> Result<(), RuleError> {
     if gate > 0.0 && gate < 1.0 {
         return Ok(());
     }
-    let must = "must be a probability above 0 and below 1; 0.9999 lets one right row in ten thousand go";
+    let must = "must be a probability above 0 and below 1, such as 0.9999";
     Err(RuleError { option: "gate", value: gate, must })
 }
 

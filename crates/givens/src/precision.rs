@@ -28,7 +28,8 @@ use crate::scalar::Element;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Single<X>(pub X);
 
-/// What a run can be made with: every method for models of type `M`, in `f64`, and [`Single`] of it, in `f32`.
+/// What a run can be made with: every method for models of type `M`, in `f64`, and [`Single`] of it, in `f32`; with a
+/// gate, [`Gated`](crate::Gated) of either.
 pub trait Computes<M>: Copy {
     /// The method.
     type Method: Over<M>;

@@ -4,11 +4,10 @@
 use super::packs::{alone, apart, steady, tracks_of};
 use super::streams::{agrees, data};
 use givens::batch::{Batch, Track};
-use givens::filter::Gaussian;
-use givens::registry::{Choice, Precision, resolve};
+use givens::registry::{Choice, Precision};
 use givens::{Data, Draws, Estimates, Goal, Outcome, Row};
 use givens_tests::choices::{choices, continuous_choices};
-use givens_tests::models::{Normals, Problem};
+use givens_tests::models::Problem;
 use givens_tests::sde::Continuous;
 
 const GOALS: [Goal; 5] = [Goal::Filter, Goal::Interval, Goal::Lag(0), Goal::Lag(4), Goal::Point(9.0)];
@@ -218,53 +217,5 @@ fn so_are_those_of_continuous_methods() {
             let found = gate.run_batch_continuous(&tracks, &Batch { goal, ..Batch::default() });
             packs_are_alone(&format!("{name} {goal:?}"), &found, &expected, 1e-9);
         }
-    }
-}
-
-/// scipy 1.17.1: `chi2.ppf(0.9999, k)` and `chi2.ppf(0.99, k)` for k = 1, 2, 3.
-const QUANTILES: [(f64, [f64; 3]); 2] = [
-    (0.9999, [15.136_705_226_623_606, 18.420_680_743_952_584, 21.107_513_466_160_444]),
-    (0.99, [6.634_896_601_021_214_5, 9.210_340_371_976_18, 11.344_866_730_144_373]),
-];
-
-#[test]
-fn the_rows_beyond_are_those_of_a_kalman_filter_by_plain_algebra() {
-    let mut problem = Problem::random(44, 4, 3, 200, 0.0);
-    // outliers of no more than nine standard deviations of the measurement's own noise, in every other row
-    let mut normals = Normals::new(45);
-    for (k, z) in problem.z.iter_mut().enumerate() {
-        let off = normals.vector(3);
-        for i in (0..3).filter(|_| k % 2 == 0) {
-            z[i] += 3.0 * off[i].clamp(-3.0, 3.0) * problem.sensor.r[(i, i)].sqrt();
-        }
-    }
-    for (gate, quantiles) in QUANTILES {
-        let (expected, margin) = problem.beyond(&quantiles);
-        let count = expected.iter().filter(|gated| **gated).count();
-        assert!(count > 20 && count < 100 && margin > 1e-6, "{count} {margin:e}");
-        for name in ["sr-ckf", "ckf", "sr-ukf", "sr-ekf", "sr-cdkf", "sr-qkf"] {
-            let choice = Choice { gate: Some(gate), ..resolve(name, &[]).unwrap() };
-            let (model, sensor, prior) = (&problem.model, &problem.sensor, &problem.prior());
-            let est = choice.run(model, sensor, problem.rows(), 0.0, prior, Goal::Filter, &[]).estimates;
-            assert_eq!(est.gated, expected, "{name}, {gate}");
-        }
-    }
-}
-
-#[test]
-fn a_gate_that_nothing_is_beyond_changes_no_number() {
-    let problem = Problem::random(46, 3, 2, 31, 0.05);
-    let (model, sensor, prior) = (&problem.model, &problem.sensor, &problem.prior());
-    let run = |choice: Choice, prior: &Gaussian| {
-        let outcome = choice.run(model, sensor, problem.rows(), 0.0, prior, Goal::Interval, &[]);
-        outcome.into_result().unwrap()
-    };
-    for (name, choice) in choices(3) {
-        let (open, none) = (run(Choice { gate: Some(1.0 - 1e-15), ..choice }, prior), run(choice, prior));
-        let array = |est: &Estimates| {
-            bits(&[est.mean.as_slice(), &est.factor, &est.nis, &est.log_likelihood].concat())
-        };
-        assert!(array(&open) == array(&none), "{name}");
-        assert!(open.gated.iter().chain(&none.gated).all(|gated| !gated), "{name}");
     }
 }

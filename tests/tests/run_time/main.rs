@@ -4,6 +4,7 @@ mod batches;
 mod by_hand;
 mod factors;
 mod gate;
+mod gate_limits;
 mod packs;
 mod samples;
 mod single;

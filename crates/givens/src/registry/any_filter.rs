@@ -161,7 +161,7 @@ impl AnyFilter<'_> {
         self.innovation().nu.len()
     }
 
-    /// Log-likelihood of the last measurement; 0 if nothing was measured.
+    /// Log-likelihood of the last measurement; 0 if nothing was measured, or taken in.
     pub fn log_likelihood(&self) -> f64 {
         self.innovation().log_likelihood
     }

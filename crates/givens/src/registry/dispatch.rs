@@ -9,7 +9,7 @@ use crate::filter::predict::{EulerMaruyama, ItoTaylor, LevelSet, MomentOde, OneT
 use crate::filter::{Covariance, Fault, SquareRoot};
 use crate::model::{Sde, Transition};
 use crate::rule::{Cubature3, Cubature5, Rule, RuleError, Taylor};
-use crate::{Computes, Gated, Single};
+use crate::{Computes, Gated, Single, gate};
 
 /// What is done with a method, once its parts are types.
 pub(super) trait Job<M> {
@@ -42,6 +42,7 @@ impl Choice {
             self.integrator.check()?;
             self.integrator.resolves(self.precision.epsilon())?;
         }
+        self.gate.map_or(Ok(()), gate::check)?;
         match self.rule {
             RuleName::CentralDifference => self.central_difference.check(states),
             RuleName::Taylor => Taylor.check(states),

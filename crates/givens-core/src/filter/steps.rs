@@ -151,9 +151,8 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
     /// is then as before, and the innovation empty.
     pub fn update<H: Observation>(&mut self, sensor: &H, z: &[f64]) -> Result<(), StepError> {
         self.make_ready(sensor, z, z.len())?;
-        let (time, step) = (self.time, self.step);
-        let learnt = self.learn_whole(sensor, T::of(time));
-        learnt.map(|_| ()).map_err(|fault| StepError { fault, time, step })
+        let learnt = self.learn_whole(sensor, T::of(self.time));
+        learnt.map(|_| ()).map_err(|fault| self.fail(fault))
     }
 
     /// Teaches the belief the components of a measurement that are there: `present[i]` tells for component i. With
@@ -168,9 +167,8 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
         present: &[bool],
     ) -> Result<(), StepError> {
         self.make_ready(sensor, z, present.len())?;
-        let (time, step) = (self.time, self.step);
-        let learnt = self.learn(sensor, T::of(time), Present::Some(present), None);
-        learnt.map(|_| ()).map_err(|fault| StepError { fault, time, step })
+        let learnt = self.learn(sensor, T::of(self.time), Present::Some(present), None);
+        learnt.map(|_| ()).map_err(|fault| self.fail(fault))
     }
 
     /// Checks a measurement, of which it was `told` for so many components whether they are there, and lays it ready.
@@ -250,7 +248,6 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
         let (nis, log_likelihood) = scores.split_at_mut(1);
         let (nis, log_likelihood) = (&mut nis[0], &mut log_likelihood[0]);
         let mut innovation = InnovationMut { predicted, nu, factor, white, nis, log_likelihood };
-        let learning = !learnt.turn.is_empty();
         let updated = update::<_, _, _, X::Form>(
             &rule,
             block,
@@ -260,7 +257,7 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
             measurement,
             &belief,
             &mut innovation,
-            learning,
+            !learnt.turn.is_empty(),
             scratch,
         )?;
         sick = sick | updated.sick;

@@ -22,18 +22,26 @@ _LAST = ("nis", "nis_dof", "log_likelihood")
 
 def columns(runs: Sequence[Estimates], first: Iterable[str] = ()) -> dict[str, Any]:
     """The columns of the command's CSV, of runs below each other; `first` are those that the caller adds."""
-    state = runs[0].state
-    _distinct(state, ("time", *first))
+    state, last = runs[0].state, _last(runs)
+    _distinct(state, ("time", *first), last)
     # one array for each column: tables of single runs would cost more than all their rows
     mean, std = (np.concatenate([getattr(one, name) for one in runs]) for name in ("mean", "std"))
     found: dict[str, Any] = {"time": np.concatenate([one.time for one in runs])}
     found |= {name: mean[:, i] for i, name in enumerate(state)}
     found |= {f"{name}_std": std[:, i] for i, name in enumerate(state)}
-    return found | {name: np.concatenate([getattr(one, name) for one in runs]) for name in _LAST}
+    found |= {name: np.concatenate([getattr(one, name) for one in runs]) for name in last}
+    if "gated" in last:
+        found["gated"] = found["gated"].astype(np.int64)
+    return found
 
 
-def _distinct(state: Sequence[str], first: Iterable[str]) -> None:
-    meant = {name: f"the column `{name}` of every table" for name in (*first, *_LAST)}
+def _last(runs: Sequence[Estimates]) -> tuple[str, ...]:
+    """The columns behind the states."""
+    return (*_LAST, "gated") if any(one.__dict__["_gate"] is not None for one in runs) else _LAST
+
+
+def _distinct(state: Sequence[str], first: Iterable[str], last: Iterable[str]) -> None:
+    meant = {name: f"the column `{name}` of every table" for name in (*first, *last)}
     meant |= {f"{name}_std": f"the standard deviation of `{name}`" for name in state}
     for name in state:
         if name in meant:
@@ -85,7 +93,7 @@ _DIMS: dict[str, tuple[str, ...]] = {
     **dict.fromkeys(("cov", "filtered_cov", "predicted_cov"), (*_STATE, "state2")),
     "innovation": _MEASURE,
     "innovation_cov": (*_MEASURE, "measure2"),
-    **dict.fromkeys(_LAST, ()),
+    **dict.fromkeys((*_LAST, "gated"), ()),
 }
 
 

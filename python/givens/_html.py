@@ -26,6 +26,7 @@ def estimates_html(one: Estimates) -> str:
     words = (
         f"{len(one)} rows, {kind} by {one.method}; log-likelihood {one.total_log_likelihood:.4f}; {one.consistency()}"
     )
+    words += _beyond([one])
     failed = f"<p><b>{escape(str(one.failed))}</b></p>" if one.failed is not None else ""
     return f"{table}<p>{escape(words)}</p>{failed}"
 
@@ -35,7 +36,13 @@ def batch_html(batch: Batch) -> str:
     table = _table(("track", "rows", "from", "to", "log-likelihood", "NIS / dof", ""), len(batch), partial(_run, batch))
     rows, total = sum(map(len, batch)), float(np.sum(batch.total_log_likelihood))
     words = f"{len(batch)} tracks, {rows} rows, {len(batch.failed)} failed; log-likelihood {total:.4f}; "
-    return f"{table}<p>{escape(words + str(batch.consistency()))}</p>"
+    return f"{table}<p>{escape(words + str(batch.consistency()) + _beyond(batch))}</p>"
+
+
+def _beyond(runs: Iterable[Estimates]) -> str:
+    """How many rows were not taken in."""
+    gated = sum(int(np.count_nonzero(one.gated)) for one in runs)
+    return f"; {gated} rows beyond the gate" if gated else ""
 
 
 def gaussian_html(one: Gaussian) -> str:

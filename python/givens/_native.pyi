@@ -342,6 +342,10 @@ class Choice:
         """The name, and the parts that were set otherwise."""
 
     @property
+    def gate(self) -> float | None:
+        """The probability of its gate, if it has one."""
+
+    @property
     def kind(self) -> _Kind: ...
     def parts(self, states: int) -> dict[str, str | float]:
         """Parts and options with their values, for a model of so many states."""
@@ -401,6 +405,10 @@ class Estimates:
         """(K,), of each row's own measurement."""
 
     @property
+    def gated(self) -> NDArray[np.bool_]:
+        """(K,), whether a row was beyond the gate."""
+
+    @property
     def total_log_likelihood(self) -> float:
         """Of all measurements that were taken in, also of those whose row gives no estimate."""
 
@@ -430,6 +438,7 @@ class _Snapshot(TypedDict):
     nis: float
     nis_dof: int
     log_likelihood: float
+    gated: bool
 
 @final
 class Filter:
@@ -474,7 +483,11 @@ class Filter:
     def nis_dof(self) -> int: ...
     @property
     def log_likelihood(self) -> float:
-        """Of the last measurement; 0 if nothing was measured."""
+        """Of the last measurement; 0 if nothing was measured, or taken in."""
+
+    @property
+    def gated(self) -> bool:
+        """Whether the last measurement was beyond the gate."""
 
     def snapshot(self) -> _Snapshot:
         """All that the filter carries, as plain data."""

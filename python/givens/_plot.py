@@ -97,7 +97,11 @@ def _state(axes: Any, one: Estimates, i: int, truth: Array | None) -> None:
 def _nis(axes: Any, one: Estimates) -> None:
     with np.errstate(all="ignore"):
         ratio = one.nis / one.nis_dof
-    axes.plot(one.time, ratio, ".", color=ESTIMATE, markersize=4)
+    taken = ~one.gated
+    axes.plot(one.time[taken], ratio[taken], ".", color=ESTIMATE, markersize=4)
+    if one.gated.any():
+        shown = {"color": ESTIMATE, "markersize": 5, "markerfacecolor": "none"}
+        axes.plot(one.time[one.gated], ratio[one.gated], "o", label="beyond the gate", **shown)
     verdict(axes, one.consistency())
 
 

@@ -73,7 +73,9 @@ def _nis(axes: Any, batch: Batch) -> None:
     nis = np.full((len(batch), len(longest)), np.nan)
     dof = np.zeros(nis.shape, dtype=np.int64)
     for k, one in enumerate(batch):
-        nis[k, : len(one)], dof[k, : len(one)] = one.nis, one.nis_dof
+        # rows beyond the gate say nothing of the filter
+        nis[k, : len(one)] = np.where(one.gated, np.nan, one.nis)
+        dof[k, : len(one)] = np.where(one.gated, 0, one.nis_dof)
     rows = [_native.consistency(*row) for row in zip(nis.T.copy(), dof.T.copy(), strict=True)]
     low, high = np.array([row["band"] for row in rows]).reshape(-1, 2).T
     axes.fill_between(longest.time, low, high, color=ESTIMATE, alpha=0.2, linewidth=0, label="95 % band")

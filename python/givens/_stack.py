@@ -49,7 +49,7 @@ def _padded(array: np.ndarray[Any, Any], rows: int, axis: int) -> np.ndarray[Any
     shape = list(array.shape)
     shape[axis] = rows - shape[axis]
     kind = array.dtype.kind
-    nothing: Any = np.array("NaT", array.dtype) if kind == "M" else 0 if kind == "i" else np.nan
+    nothing: Any = np.array("NaT", array.dtype) if kind == "M" else 0 if kind in "ib" else np.nan
     return np.concatenate([array, np.full(shape, nothing, array.dtype)], axis=axis)
 
 
@@ -150,3 +150,9 @@ class Stacked:
     def log_likelihood(self) -> Array:
         """Of each row's own measurement, shape (runs, rows)."""
         return self._stacked("log_likelihood")
+
+    @property
+    def gated(self) -> npt.NDArray[np.bool_]:
+        """Rows beyond the gate, which were not taken in, shape (runs, rows)."""
+        found: npt.NDArray[np.bool_] = self._all("gated")
+        return found

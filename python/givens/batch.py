@@ -28,7 +28,8 @@ class Batch(Stacked):
     """The estimates of several trajectories, in the order of the data: a sequence of `Estimates`.
 
     The arrays of all tracks are those of `Estimates` with one dimension more in front, and cannot be written to; behind
-    the failure of a track they are NaN, and `nis_dof` is 0. Tracks with different numbers of rows have none.
+    the failure of a track they are NaN, and `nis_dof` and `gated` are 0. Tracks with different numbers of rows have
+    none.
 
     Attributes
     ----------
@@ -37,7 +38,7 @@ class Batch(Stacked):
     mean, filtered_mean, predicted_mean, std : ndarray, shape (runs, rows, n)
     cov, factor, filtered_cov, predicted_cov : ndarray, shape (runs, rows, n, n)
     innovation, innovation_cov : ndarray, shapes (runs, rows, d) and (runs, rows, d, d)
-    nis, nis_dof, log_likelihood : ndarray, shape (runs, rows)
+    nis, nis_dof, log_likelihood, gated : ndarray, shape (runs, rows)
     total_log_likelihood : ndarray, shape (runs,)
         Of each track.
     state, measures : tuple of str
@@ -218,7 +219,8 @@ class Batch(Stacked):
         """A data set with the dimensions track, time, state, state2, measure, measure2.
 
         Where tracks have different times there is the dimension row in place of time, and `time` has track and row.
-        Behind the last row of a shorter track stands NaN, NaT, or 0 in `nis_dof`; `rows` says how many each track has.
+        Behind the last row of a shorter track stands NaN, NaT, or 0 in `nis_dof` and `gated`; `rows` says how many each
+        track has.
         """
         from givens._export import batch_to_xarray
 

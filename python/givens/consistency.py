@@ -19,12 +19,21 @@ __all__ = ["Consistency", "Scored", "consistency_of"]
 
 
 class Scored(NamedTuple):
-    """What the rows of a run say of its filter."""
+    """What the rows of a run that were taken in say of its filter."""
 
     nis: Array
     nis_dof: npt.NDArray[np.int64]
     innovation: Array
     innovation_cov: Array
+
+    @classmethod
+    def of(cls, rows: _native.Estimates) -> Scored:
+        """Of all rows: those beyond the gate as if nothing had been measured there."""
+        if not rows.gated.any():
+            return cls(rows.nis, rows.nis_dof, rows.innovation, rows.innovation_cov)
+        nis = np.where(rows.gated, np.nan, rows.nis)
+        innovation = np.where(rows.gated[:, None], np.nan, rows.innovation)
+        return cls(nis, np.where(rows.gated, 0, rows.nis_dof), innovation, rows.innovation_cov)
 
 
 @dataclass(frozen=True)

@@ -50,7 +50,9 @@ class Estimates:
     nis_dof : ndarray of int, shape (rows,)
         Measures that were there.
     log_likelihood : ndarray, shape (rows,)
-        Of each row's own measurement, given those before; 0 where nothing was measured.
+        Of each row's own measurement, given those before; 0 where nothing was measured, or taken in.
+    gated : ndarray of bool, shape (rows,)
+        Rows beyond the `gate`, which were not taken in; `innovation` and `nis` are those that were seen.
     state, measures : tuple of str
         Names.
     method : str
@@ -86,6 +88,7 @@ class Estimates:
     nis: Array
     nis_dof: npt.NDArray[np.int64]
     log_likelihood: Array
+    gated: npt.NDArray[np.bool_]
     state: tuple[str, ...]
     measures: tuple[str, ...]
     method: str
@@ -111,6 +114,7 @@ class Estimates:
         fields: dict[str, Any] = {name: _after(before, getattr(found, name)) for name in (*_ROWS, *_MEASURED)}
         fields["log_likelihood"] = _after(before, found.log_likelihood, 0.0)
         fields["nis_dof"] = _after(before, found.nis_dof, 0)
+        fields["gated"] = _after(before, found.gated, False)
         seconds = frozen(np.concatenate([track.time[:before], found.time])) if before else found.time
         fields |= {
             "seconds": seconds,
@@ -122,7 +126,8 @@ class Estimates:
         # other times have no measurements: what is said of all of them is said of the rows
         rows = found if at is None else native
         fields["_total"] = native.total_log_likelihood
-        fields["_scored"] = Scored(rows.nis, rows.nis_dof, rows.innovation, rows.innovation_cov)
+        fields["_scored"] = Scored.of(rows)
+        fields["_gate"] = track.choice.gate
         fields["_rows"] = goal.rows(track.time) if at is None else len(at.seconds)
         fields["_aware"] = bool(track.clock.aware)
         fields["_whole"] = goal.word == "interval" and at is None and failed is None
@@ -217,12 +222,12 @@ class Estimates:
         return draws(self, whole("n", n), seed_of(seed))
 
     def consistency(self) -> Consistency:
-        """Whether the innovations are as large as the filter says, and unrelated to each other."""
+        """Whether the innovations are as large as the filter says, and unrelated to each other; without gated rows."""
         return consistency_of([self])
 
     def to_dict(self) -> dict[str, Any]:
         """All arrays by name."""
-        names = ("time", *_ROWS, "std", *_MEASURED, "nis_dof", "log_likelihood")
+        names = ("time", *_ROWS, "std", *_MEASURED, "nis_dof", "log_likelihood", "gated")
         return {name: getattr(self, name) for name in names}
 
     def to_pandas(self) -> Any:
@@ -265,10 +270,11 @@ class Estimates:
 
     def __repr__(self) -> str:
         word = ", smoothed" if self.is_smoothed else ""
+        beyond = f", {gated} beyond the gate" if (gated := int(np.count_nonzero(self.gated))) else ""
         end = f", failed at row {self.failed.row}" if self.failed is not None else ""
         return (
             f"Estimates({len(self)} rows, state=[{', '.join(self.state)}], method={self.method}{word}, "
-            f"log-likelihood {self.total_log_likelihood:.4f}{end})"
+            f"log-likelihood {self.total_log_likelihood:.4f}{beyond}{end})"
         )
 
     def _repr_html_(self) -> str:

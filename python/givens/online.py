@@ -186,8 +186,13 @@ class Filter:
 
     @property
     def log_likelihood(self) -> float:
-        """Of the last measurement; 0 if nothing was measured."""
+        """Of the last measurement; 0 if nothing was measured, or taken in."""
         return self._native.log_likelihood
+
+    @property
+    def gated(self) -> bool:
+        """Whether the last measurement was beyond the `gate`, and so not taken in."""
+        return self._native.gated
 
     @property
     def method(self) -> str:

@@ -79,7 +79,7 @@ def filter(
         Threads for a batch; by default as many as there are cores. Estimates do not depend on it.
     **options
         Parts and options of the method, as `methods` lists them: ``substeps=8``, ``rtol=1e-8``, ``form="covariance"``,
-        ``precision="f32"``.
+        ``precision="f32"``, ``gate=0.9999``.
 
     Returns
     -------

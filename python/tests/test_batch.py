@@ -13,7 +13,7 @@ THREE = np.stack([Z, Z + 0.1, Z - 0.2])
 DATES = np.datetime64("2024-02-29T12:00", "ms") + np.round(T * 1000).astype("timedelta64[ms]")
 ARRAYS = [
     *("time", "mean", "cov", "factor", "std", "filtered_mean", "filtered_cov", "predicted_mean", "predicted_cov"),
-    *("innovation", "innovation_cov", "nis", "nis_dof", "log_likelihood"),
+    *("innovation", "innovation_cov", "nis", "nis_dof", "log_likelihood", "gated"),
 ]
 
 

@@ -53,6 +53,35 @@ pub fn kalman(problem: &Problem) -> Answer {
     kalman_over(prior, &vec![step; problem.z.len()], &problem.sensor, &problem.z)
 }
 
+impl Problem {
+    /// Of a linear problem, the rows whose νᵀ S⁻¹ ν is beyond the quantile of as many degrees of freedom as components are
+    /// there, when such rows are not taken in; and how near the nearest of all comes to its quantile, relatively.
+    #[must_use]
+    pub fn beyond(&self, quantiles: &[f64]) -> (Vec<bool>, f64) {
+        let (f, q) = (&self.model.f, &self.model.q);
+        let (mut mean, mut cov) = (DVector::from_vec(self.mean.clone()), self.cov.clone());
+        let (mut rows, mut margin) = (Vec::new(), f64::INFINITY);
+        for z in &self.z {
+            (mean, cov) = (f * &mean, f * &cov * f.transpose() + q);
+            let (h, r, z) = measured(&self.sensor, z);
+            if z.is_empty() {
+                rows.push(false);
+                continue;
+            }
+            let (quantile, nu) = (quantiles[z.len() - 1], z - &h * &mean);
+            let s = &h * &cov * h.transpose() + r;
+            let nis = (nu.transpose() * inverse(&s) * &nu)[(0, 0)];
+            margin = margin.min((nis / quantile - 1.0).abs());
+            rows.push(nis > quantile);
+            if nis <= quantile {
+                let gain = &cov * h.transpose() * inverse(&s);
+                (mean, cov) = (mean + &gain * nu, &cov - &gain * s * gain.transpose());
+            }
+        }
+        (rows, margin)
+    }
+}
+
 /// The same over the transition matrix F and the noise covariance Q of each step, after which a row of `z` is measured.
 #[must_use]
 pub fn kalman_over(

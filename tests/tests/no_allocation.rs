@@ -49,6 +49,8 @@ fn allocations<X: Over<CoordinatedTurn>>(method: X) -> usize {
         filter.predict(t).unwrap();
         let (x, y) = (filter.mean()[0] + 3.0, filter.mean()[2] - 2.0);
         filter.update_present(&radar, &[x.hypot(y), y.atan2(x)], &[true, k % 3 != 0]).unwrap();
+        // a range that is far off is looked at, and not taken in
+        assert!(!filter.update_gated(&radar, &[x.hypot(y) + 1e4, y.atan2(x)], &[true; 2], 18.42).unwrap());
     }
     ALLOCATIONS.get() - before
 }

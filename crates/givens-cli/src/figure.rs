@@ -122,5 +122,6 @@ fn nis(shown: &Shown) -> NisSeries {
     let mut band = |dof: usize| *bands.entry(dof).or_insert_with(|| chi_squared_band(dof as f64));
     let (lower, upper) = est.nis_dof.iter().map(|&dof| band(dof)).unzip();
     let all = shown.counts.map(|counts| counts.nis.clone());
-    NisSeries { time: est.time.clone(), nis: est.nis.clone(), lower, upper, all }
+    let (time, nis, gated) = (est.time.clone(), est.nis.clone(), est.gated.clone());
+    NisSeries { time, nis, lower, upper, gated, all }
 }

@@ -208,6 +208,7 @@ pub fn parts(choice: &Choice, states: usize) -> Vec<String> {
     if choice.precision != Precision::F64 {
         parts.push(format!("precision {}", choice.precision.word()));
     }
+    parts.extend(choice.gate.map(|gate| format!("gate {}", Shown(gate))));
     if choice.time_update != TimeName::Transition {
         parts.push(format!("time update {}", choice.time_update.word()));
         parts.extend(

@@ -2,6 +2,7 @@
 
 use crate::message::{count, digits, say};
 use crate::plan::Plan;
+use givens::Estimates;
 use givens::metrics::{Accuracy, Consistency};
 use givens::scalar::Shown;
 use givens_io::Model;
@@ -11,8 +12,58 @@ pub struct Summary {
     pub rows: usize,
     pub log_likelihood: f64,
     pub consistency: Consistency,
+    pub gated: Gated,
     /// Against a truth, if there is one.
     pub accuracy: Option<Accuracy>,
+}
+
+/// Rows beyond the gate.
+#[derive(Default)]
+pub struct Gated {
+    count: usize,
+    /// The first of them: track, and row of it.
+    first: Vec<(usize, usize)>,
+}
+
+impl Gated {
+    /// So many are named.
+    const NAMED: usize = 8;
+
+    /// Adds those of the estimates of a track, the first of which is of its row `from`.
+    pub fn add(&mut self, track: usize, from: usize, est: &Estimates) {
+        for (k, _) in est.gated.iter().enumerate().filter(|(_, gated)| **gated) {
+            self.count += 1;
+            if self.first.len() < Self::NAMED {
+                self.first.push((track, from + k));
+            }
+        }
+    }
+
+    /// How many there are.
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
+    /// The same in words, and where they are, if there is a gate.
+    fn told(&self, plan: &Plan, rows: usize) -> Option<String> {
+        let gate = plan.choice.gate?;
+        let places = self.first.iter().map(|&(i, k)| {
+            let track = &plan.tracks.tracks[i];
+            let row = &track.rows[k];
+            let name = track.id.as_ref().map_or(String::new(), |id| format!("track {id}, "));
+            format!("{}:{} ({name}t = {})", plan.data, row.line, track.time_text(row.time))
+        });
+        let named = match places.collect::<Vec<_>>() {
+            none if none.is_empty() => String::new(),
+            places => format!(", not taken in: {}", places.join(", ")),
+        };
+        let more = match self.count - self.first.len() {
+            0 => String::new(),
+            more => format!(" and {more} more"),
+        };
+        let rows = count(rows, "row");
+        Some(format!("{} of {rows} beyond the gate ({}){named}{more}", self.count, Shown(gate)))
+    }
 }
 
 /// The closing lines of a run.
@@ -26,6 +77,9 @@ pub fn closing(plan: &Plan, summary: &Summary) {
     }
     let Summary { log_likelihood, consistency, .. } = summary;
     say(&format!("{title}: {counted}{of}, log-likelihood {:.3}, {consistency}", Shown(*log_likelihood)));
+    if let Some(told) = summary.gated.told(plan, summary.rows) {
+        say(&told);
+    }
     if let Some(accuracy) = &summary.accuracy {
         for line in accuracy_lines(&plan.model, accuracy) {
             say(&line);

@@ -7,7 +7,7 @@ use crate::message::Stop;
 use crate::plan::Plan;
 use crate::portion::portions;
 use crate::progress::Progress;
-use crate::report::Summary;
+use crate::report::{Gated, Summary};
 use core::num::NonZeroUsize;
 use givens::batch::Batch;
 use givens::metrics::{Accuracy, Consistency};
@@ -106,12 +106,22 @@ impl Session {
         Accuracy::pooled(accuracies)
     }
 
+    /// The rows beyond the gate.
+    pub fn gated(&self) -> Gated {
+        let mut gated = Gated::default();
+        for (i, answer) in self.answers.iter().enumerate() {
+            gated.add(i, answer.row, &answer.estimates);
+        }
+        gated
+    }
+
     /// What the rows add up to.
     pub fn summary(&self, plan: &Plan) -> Summary {
         Summary {
             rows: self.estimates().map(Estimates::len).sum(),
             log_likelihood: self.log_likelihood(),
             consistency: Consistency::of(self.estimates()),
+            gated: self.gated(),
             accuracy: self.accuracy(plan),
         }
     }

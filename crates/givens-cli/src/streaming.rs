@@ -7,12 +7,12 @@ use crate::message::{Stop, say};
 use crate::plan::Plan;
 use crate::portion;
 use crate::progress::Progress;
-use crate::report::Summary;
+use crate::report::{Gated, Summary};
 use crate::session::Manner;
 use crate::thin::Thinned;
 use core::ops::ControlFlow;
 use givens::batch::Track;
-use givens::metrics::{AccuracySums, Consistency};
+use givens::metrics::{AccuracySums, ConsistencySums};
 use givens::{Data, Estimates, Finished, Goal, Stream};
 use givens_io::{AnswerWriter, Dynamics, Format, Part};
 use std::io::{self, ErrorKind, Write};
@@ -41,8 +41,8 @@ pub struct Streaming<'p> {
 struct Sums {
     rows: usize,
     log_likelihood: f64,
-    nis: f64,
-    dof: usize,
+    consistency: ConsistencySums,
+    gated: Gated,
 }
 
 impl<'p> Streaming<'p> {
@@ -59,7 +59,8 @@ impl<'p> Streaming<'p> {
         let thinned = drawn.then(|| (Thinned::new(data.len(), measured), Estimates::default()));
         let accuracy = plan.truth.as_ref().map(|_| AccuracySums::new(plan.model.states.len()));
         let (smoothed, threads) = (goal != Goal::Filter, manner.threads);
-        let writer = AnswerWriter { format, model: &plan.model, tracks: &plan.tracks, smoothed, threads };
+        let (model, tracks, gated) = (&plan.model, &plan.tracks, plan.choice.gate.is_some());
+        let writer = AnswerWriter { format, model, tracks, smoothed, gated, threads };
         let (written, sums) = ((false, 0), Sums::default());
         Ok(Self { plan, goal, at: manner.at, data, writer, thinned, written, sums, accuracy, failure: None })
     }
@@ -92,7 +93,7 @@ impl<'p> Streaming<'p> {
             let by = Stream { goal: self.goal, hold, threads, cancel: None, rows: Some(count) };
             let mut sink = |finished: Finished| {
                 finished_rows += finished.estimates.len();
-                self.add(finished.estimates, finished.at);
+                self.add(&finished);
                 if done.is_ok() {
                     done = self.write(out, &finished, tracks.as_ref());
                 }
@@ -154,11 +155,12 @@ impl<'p> Streaming<'p> {
     }
 
     /// Adds rows to what is told of them, and drawn.
-    fn add(&mut self, est: &Estimates, at: &Estimates) {
+    fn add(&mut self, finished: &Finished) {
+        let Finished { first, estimates: est, at } = *finished;
         self.sums.rows += est.len();
         est.log_likelihood.iter().for_each(|x| self.sums.log_likelihood += x);
-        est.nis.iter().filter(|x| !x.is_nan()).for_each(|x| self.sums.nis += x);
-        self.sums.dof += est.nis_dof.iter().sum::<usize>();
+        self.sums.consistency.add(est);
+        self.sums.gated.add(0, self.plan.beginnings[0].row + first, est);
         let truth = self.plan.truth_at(0, self.goal, est.time.iter().copied());
         if let (Some(sums), Some(truth)) = (&mut self.accuracy, &truth) {
             sums.add(&est.mean, &est.cov, &truth.states);
@@ -173,10 +175,10 @@ impl<'p> Streaming<'p> {
     }
 
     /// What the rows add up to.
-    pub fn summary(&self) -> Summary {
-        let Sums { rows, log_likelihood, nis, dof } = self.sums;
+    pub fn summary(&mut self) -> Summary {
+        let Sums { rows, log_likelihood, consistency, gated } = core::mem::take(&mut self.sums);
         let accuracy = self.accuracy.as_ref().map(AccuracySums::accuracy);
-        Summary { rows, log_likelihood, consistency: Consistency::of_sum(nis, dof), accuracy }
+        Summary { rows, log_likelihood, consistency: consistency.consistency(), gated, accuracy }
     }
 
     /// What a figure of it shows.

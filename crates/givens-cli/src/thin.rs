@@ -103,7 +103,10 @@ impl Thinned {
                 *inside += usize::from(error.is_finite() && error.abs() <= 2.0 * deviation);
             }
             let (nis, dof) = (est.nis[row], est.nis_dof[row]);
-            if !nis.is_finite() {
+            if est.gated[row] {
+                self.counts.nis.gated += 1;
+            }
+            if !nis.is_finite() || est.gated[row] {
                 continue;
             }
             let (low, high) = self.band(dof);

@@ -76,6 +76,12 @@ impl Choice {
         self.0.title()
     }
 
+    /// The probability of its gate, if it has one.
+    #[getter]
+    fn gate(&self) -> Option<f64> {
+        self.0.gate
+    }
+
     #[getter(kind)]
     fn get_kind(&self) -> &'static str {
         self.0.kind().word()
@@ -103,6 +109,9 @@ impl Choice {
             parts.set_item("update", update)?;
         }
         parts.set_item("precision", choice.precision.word())?;
+        if let Some(gate) = choice.gate {
+            parts.set_item("gate", gate)?;
+        }
         parts.set_item("time_update", choice.time_update.word())?;
         for (key, value) in choice.time_options() {
             match value.parse::<f64>() {

@@ -3,7 +3,7 @@
 use givens::filter::StepError;
 use givens::registry::Choice;
 use givens::{Estimates as Rows, Outcome};
-use numpy::{PyArray1, PyArrayDyn, PyUntypedArrayMethods};
+use numpy::{PyArray1, PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -32,6 +32,7 @@ pub struct Estimates {
     nis: Array,
     nis_dof: Py<PyArray1<i64>>,
     log_likelihood: Array,
+    gated: Py<PyArray1<bool>>,
     total_log_likelihood: f64,
     smoothed: bool,
     at: Option<Py<Estimates>>,
@@ -51,6 +52,8 @@ impl Estimates {
             (mean.clone_ref(py), cov.clone_ref(py))
         };
         let nis_dof = counts(py, rows.nis_dof.iter().copied());
+        let gated = PyArray1::from_vec(py, rows.gated);
+        gated.readwrite().make_nonwriteable();
         Ok(Self {
             time: array(rows.time, &[k])?,
             mean,
@@ -65,6 +68,7 @@ impl Estimates {
             nis: array(rows.nis, &[k])?,
             nis_dof: nis_dof.unbind(),
             log_likelihood: array(rows.log_likelihood, &[k])?,
+            gated: gated.unbind(),
             total_log_likelihood,
             smoothed,
             at: None,

@@ -225,6 +225,11 @@ impl Filter {
         Ok(free(slf)?.learnt.log_likelihood)
     }
 
+    #[getter]
+    fn gated(slf: &Bound<'_, Self>) -> Result<bool> {
+        Ok(free(slf)?.learnt.gated)
+    }
+
     /// All that it carries, as plain data.
     fn snapshot<'py>(slf: &Bound<'py, Self>) -> Result<Bound<'py, PyDict>> {
         let own = free(slf)?;

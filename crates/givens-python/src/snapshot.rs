@@ -21,20 +21,21 @@ pub struct Learnt {
     pub nis: f64,
     pub nis_dof: usize,
     pub log_likelihood: f64,
+    pub gated: bool,
 }
 
 impl Learnt {
     /// Nothing yet, of d measures.
     pub fn nothing(d: usize) -> Self {
         let (innovation, innovation_cov) = (vec![f64::NAN; d], vec![f64::NAN; d * d]);
-        Self { innovation, innovation_cov, nis: f64::NAN, nis_dof: 0, log_likelihood: 0.0 }
+        Self { innovation, innovation_cov, nis: f64::NAN, nis_dof: 0, log_likelihood: 0.0, gated: false }
     }
 
     /// Of a filter that was updated.
     pub fn of(filter: &AnyFilter<'_>) -> Self {
         let (innovation, innovation_cov) = filter.whole_innovation();
         let (nis, nis_dof, log_likelihood) = (filter.nis(), filter.dof(), filter.log_likelihood());
-        Self { innovation, innovation_cov, nis, nis_dof, log_likelihood }
+        Self { innovation, innovation_cov, nis, nis_dof, log_likelihood, gated: filter.gated() }
     }
 }
 
@@ -67,6 +68,7 @@ pub fn write<'py>(py: Python<'py>, filter: &AnyFilter<'_>, learnt: &Learnt) -> P
     all.set_item("nis", learnt.nis)?;
     all.set_item("nis_dof", learnt.nis_dof)?;
     all.set_item("log_likelihood", learnt.log_likelihood)?;
+    all.set_item("gated", learnt.gated)?;
     Ok(all)
 }
 
@@ -100,6 +102,7 @@ pub fn read(model: &Model, snapshot: &Bound<'_, PyDict>) -> Result<(Snapshot, Le
         nis: item("nis")?.extract()?,
         nis_dof: item("nis_dof")?.extract()?,
         log_likelihood: item("log_likelihood")?.extract()?,
+        gated: item("gated")?.extract()?,
     };
     Ok((carried, learnt))
 }

@@ -33,8 +33,10 @@ pub struct Estimates {
     pub nis: Vec<f64>,
     /// Components that were there, of every row.
     pub nis_dof: Vec<usize>,
-    /// Log-likelihood of every row's measurement; 0 where nothing was measured.
+    /// Log-likelihood of every row's measurement; 0 where nothing was measured, or taken in.
     pub log_likelihood: Vec<f64>,
+    /// Whether a row was beyond the [gate](crate::Gated), and so not taken in.
+    pub gated: Vec<bool>,
 }
 
 /// Lists the arrays of floats of some estimates with the lengths of their rows; a filter has no rows of filtered ones besides.
@@ -78,6 +80,7 @@ impl Estimates {
             let _ = array.try_reserve_exact(rows.saturating_mul(len));
         }
         let _ = self.nis_dof.try_reserve_exact(rows);
+        let _ = self.gated.try_reserve_exact(rows);
     }
 
     /// Drops what stands behind the first `rows` rows.
@@ -86,6 +89,7 @@ impl Estimates {
             array.truncate(rows * len);
         }
         self.nis_dof.truncate(rows);
+        self.gated.truncate(rows);
     }
 
     /// Appends row `row` of other estimates, of as many states and measures; those of the first row that is appended to none.
@@ -104,6 +108,7 @@ impl Estimates {
             to.extend_from_slice(&from[row * len..(row + 1) * len]);
         }
         self.nis_dof.push(other.nis_dof[row]);
+        self.gated.push(other.gated[row]);
         true
     }
 
@@ -114,6 +119,7 @@ impl Estimates {
             *to = from.split_off(row * len);
         }
         off.nis_dof = self.nis_dof.split_off(row);
+        off.gated = self.gated.split_off(row);
         off
     }
 
@@ -123,17 +129,18 @@ impl Estimates {
             to[row * len..(row + 1) * len].copy_from_slice(&source[from * len..(from + 1) * len]);
         }
         self.nis_dof[row] = other.nis_dof[from];
+        self.gated[row] = other.gated[from];
     }
 
     /// Bytes of one row of the estimates of n `states` and d `measures`; those of a smoother are `smoothed`.
     ///
     /// ```
-    /// assert_eq!(givens::Estimates::row_bytes(5, 2, false), 760);
+    /// assert_eq!(givens::Estimates::row_bytes(5, 2, false), 761);
     /// ```
     pub const fn row_bytes(states: usize, measures: usize, smoothed: bool) -> usize {
         let (vectors, matrices) = if smoothed { (3, 4) } else { (2, 3) };
         let belief = vectors * states + matrices * states * states;
-        size_of::<f64>() * (4 + belief + measures + measures * measures)
+        size_of::<f64>() * (4 + belief + measures + measures * measures) + size_of::<bool>()
     }
 
     /// Number of rows.

@@ -27,6 +27,7 @@ pub mod batch;
 mod data;
 mod estimates;
 pub mod explain;
+mod gate;
 pub mod metrics;
 mod precision;
 pub mod registry;
@@ -36,6 +37,7 @@ mod stream;
 
 pub use data::{Data, DataError, Row};
 pub use estimates::Estimates;
+pub use gate::Gated;
 pub use precision::{Computes, Single};
 pub use run::{Draws, Failure, Goal, Outcome, Samples, filter, run, run_at, sample, smooth};
 pub use stream::{Ended, Finished, Sink, Stream};

@@ -28,7 +28,8 @@ use crate::scalar::Element;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Single<X>(pub X);
 
-/// What a run can be made with: every method for models of type `M`, in `f64`, and [`Single`] of it, in `f32`.
+/// What a run can be made with: every method for models of type `M`, in `f64`, and [`Single`] of it, in `f32`; with a
+/// gate, [`Gated`](crate::Gated) of either.
 pub trait Computes<M>: Copy {
     /// The method.
     type Method: Over<M>;
@@ -36,6 +37,10 @@ pub trait Computes<M>: Copy {
     type Number: Element;
     /// The method by itself.
     fn method(self) -> Self::Method;
+    /// The probability beyond which a measurement is not taken in, if there is a gate; see [`Gated`](crate::Gated).
+    fn gate(self) -> Option<f64> {
+        None
+    }
 }
 
 impl<M, X: Over<M>> Computes<M> for X {

@@ -14,7 +14,7 @@ use givens_tests::sde::{Continuous, Flow};
 use givens_tests::{cov_error, mean_error, worst};
 
 /// Tracks of different lengths, from 1 row to 12, each with its own components missing; some rows have none at all.
-fn tracks_of(z: &[Vec<f64>], seed: u64, time: impl Fn(usize, f64) -> f64) -> Vec<Data> {
+pub fn tracks_of(z: &[Vec<f64>], seed: u64, time: impl Fn(usize, f64) -> f64) -> Vec<Data> {
     let d = z[0].len();
     let one = |k: u64| {
         let mut normals = Normals::new(seed + k);
@@ -34,7 +34,7 @@ fn tracks_of(z: &[Vec<f64>], seed: u64, time: impl Fn(usize, f64) -> f64) -> Vec
 }
 
 /// How far two outcomes are apart: means in standard deviations, covariances in products of them, the rest relatively.
-fn apart(found: &Outcome, expected: &Outcome) -> f64 {
+pub fn apart(found: &Outcome, expected: &Outcome) -> f64 {
     let (a, b) = (&found.estimates, &expected.estimates);
     assert_eq!(found.failure, expected.failure);
     assert_eq!((&a.time, &a.nis_dof, a.len()), (&b.time, &b.nis_dof, b.len()));
@@ -67,7 +67,7 @@ fn apart(found: &Outcome, expected: &Outcome) -> f64 {
     worst(rows)
 }
 
-fn alone() -> Batch<'static> {
+pub fn alone() -> Batch<'static> {
     Batch { vectors: InstructionSet::Portable, ..Batch::default() }
 }
 
@@ -93,7 +93,7 @@ fn packs_of_every_discrete_method_are_the_tracks_alone() {
 }
 
 /// Continuous methods with equal steps, whose lanes go together.
-fn steady(n: usize) -> Vec<(String, Choice)> {
+pub fn steady(n: usize) -> Vec<(String, Choice)> {
     let with = |name: &str, settings: &[(&str, &str)]| {
         let own: Vec<_> =
             settings.iter().map(|&(key, x)| Setting { key: key.to_owned(), value: x.into() }).collect();

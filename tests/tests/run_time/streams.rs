@@ -17,11 +17,12 @@ use proptest::prelude::*;
 
 /// All numbers of some estimates, array by array, as bits.
 #[derive(Debug, Default, PartialEq)]
-struct Bits([Vec<u64>; 13]);
+struct Bits([Vec<u64>; 14]);
 
 impl Bits {
     fn add(&mut self, est: &Estimates) {
         let dof: Vec<f64> = est.nis_dof.iter().map(|&dof| dof as f64).collect();
+        let gated: Vec<f64> = est.gated.iter().map(|&gated| f64::from(u8::from(gated))).collect();
         let arrays = [
             &est.time,
             &est.mean,
@@ -36,6 +37,7 @@ impl Bits {
             &est.nis,
             &est.log_likelihood,
             &dof,
+            &gated,
         ];
         for (to, from) in self.0.iter_mut().zip(arrays) {
             to.extend(from.iter().map(|x| x.to_bits()));
@@ -49,14 +51,20 @@ impl Bits {
     }
 }
 
-fn data<'a>(rows: impl Iterator<Item = Row<'a>>, measures: usize, controls: usize) -> Data {
+pub fn data<'a>(rows: impl Iterator<Item = Row<'a>>, measures: usize, controls: usize) -> Data {
     let mut data = Data::with_controls(measures, controls).starting_at(0.0);
     rows.for_each(|row| data.push_controlled(row.time, row.z, row.u).unwrap());
     data
 }
 
 /// Streams with few and many rows at once, and compares with a run.
-fn agrees(name: &str, goal: Goal, all: usize, whole: &Outcome, stream: impl Fn(&Stream, &mut Sink) -> Ended) {
+pub fn agrees(
+    name: &str,
+    goal: Goal,
+    all: usize,
+    whole: &Outcome,
+    stream: impl Fn(&Stream, &mut Sink) -> Ended,
+) {
     for (hold, threads) in [(1, 1), (9, 2), (30, 3)] {
         let place = format!("{name}, {goal:?}, {hold} rows at once");
         let (mut rows, mut at, mut count) = (Bits::default(), Bits::default(), 0);

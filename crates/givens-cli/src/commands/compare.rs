@@ -26,10 +26,11 @@ pub fn compare(args: &CompareArgs) -> Result<(), Stop> {
     let choices = choices(&model, args)?;
     let Some(&first) = choices.first() else { return Err(Stop::input("--methods names no method")) };
     let plan = Plan::with(model, first, &args.data, args.truth.as_deref())?;
-    let mut table = vec![header(&plan)];
+    let gated = choices.iter().any(|choice| choice.gate.is_some());
+    let mut table = vec![header(&plan, gated)];
     let mut failures = Vec::new();
     for (name, choice) in args.methods.iter().zip(&choices) {
-        let (line, failed) = line(&plan, name.trim(), choice, args.threads)?;
+        let (line, failed) = line(&plan, name.trim(), choice, gated, args.threads)?;
         table.push(line);
         failures.extend(failed.into_iter().map(|failure| format!("{}: {failure}", name.trim())));
     }
@@ -83,11 +84,14 @@ fn one_only(stop: Stop, settings: &[(Option<&str>, Typed)]) -> Stop {
     }
 }
 
-fn header(plan: &Plan) -> Vec<String> {
+fn header(plan: &Plan, gated: bool) -> Vec<String> {
     let mut header: Vec<String> =
         ["method", "rows", "failed", "log-likelihood", "NIS/dof", "verdict", "µs/row"]
             .map(str::to_owned)
             .into();
+    if gated {
+        header.insert(3, "gated".to_owned());
+    }
     if let Some(truth) = &plan.truth {
         let known = plan.model.states.iter().zip(&truth.states).filter(|(_, column)| column.is_some());
         header.extend(known.map(|(name, _)| format!("{name} RMSE")));
@@ -100,6 +104,7 @@ fn line(
     plan: &Plan,
     name: &str,
     choice: &Choice,
+    gated: bool,
     threads: Option<NonZeroUsize>,
 ) -> Result<(Vec<String>, Vec<String>), Stop> {
     let manner = Manner { at: None, threads, whole: false };
@@ -125,6 +130,9 @@ fn line(
         verdict.to_owned(),
         if rows == 0 { "-".to_owned() } else { format!("{:.2}", 1e6 * seconds / rows as f64) },
     ];
+    if gated {
+        line.insert(3, filtered.gated().count().to_string());
+    }
     let mut failures = filtered.failures.clone();
     if let Some(truth) = &plan.truth {
         let smoothed = run(Goal::Interval)?;

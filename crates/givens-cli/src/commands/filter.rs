@@ -51,9 +51,10 @@ fn run(args: &FilterArgs, goals: impl Fn(&Plan) -> Result<Vec<Goal>, Stop>) -> R
         return alone.failure().map_or(Ok(()), |failure| Err(Stop::failed(failure)));
     }
     let session = Session::run(&plan, &plan.choice, &goals, manner)?;
+    let (model, gated) = (&plan.model, plan.choice.gate.is_some());
     sink.write(|out| match &at {
-        Some(at) => write_answers(out, format, &plan.model, &at.tracks(&plan), &session.at, args.threads),
-        None => write_answers(out, format, &plan.model, &plan.tracks, &session.answers, args.threads),
+        Some(at) => write_answers(out, format, model, &at.tracks(&plan), &session.at, gated, args.threads),
+        None => write_answers(out, format, model, &plan.tracks, &session.answers, gated, args.threads),
     })?;
     draw(canvases, &plan, &session.shown())?;
     report::closing(&plan, &session.summary(&plan));

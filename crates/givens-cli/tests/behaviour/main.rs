@@ -6,6 +6,7 @@ mod common;
 mod compare;
 mod continuous;
 mod failures;
+mod gate;
 mod large;
 mod output;
 mod precision;

@@ -19,17 +19,19 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
         T::within(OneStep { filter: self, from, length, chained })
     }
 
-    /// Takes in the measurement that lies ready, made at time `t`; the lanes in which that was not done.
+    /// Takes in the measurement that lies ready, made at time `t`, unless its NIS is above `most` in every lane; the lanes in
+    /// which that was not done.
     pub(super) fn learn<H: Observation>(
         &mut self,
         sensor: &H,
         t: T,
         present: Present<T>,
+        most: Option<T>,
     ) -> Result<T::Mask, Fault> {
-        T::within(Learn { filter: self, sensor, t, present })
+        T::within(Learn { filter: self, sensor, t, present, most })
     }
 
-    /// The same of a measurement with all its components, which the compiler then knows the number of.
+    /// The same of a measurement with all its components and without a gate, which the compiler then knows the number of.
     pub(super) fn learn_whole<H: Observation>(&mut self, sensor: &H, t: T) -> Result<T::Mask, Fault> {
         T::within(LearnWhole { filter: self, sensor, t })
     }
@@ -55,13 +57,14 @@ struct Learn<'f, 'm, X, M, T: Real, B, H> {
     sensor: &'f H,
     t: T,
     present: Present<'f, T>,
+    most: Option<T>,
 }
 
 impl<X: Over<M>, M, T: Real, B: Grow<T>, H: Observation> Inside for Learn<'_, '_, X, M, T, B, H> {
     type Output = Result<T::Mask, Fault>;
     #[inline(always)]
     fn go(self) -> Self::Output {
-        self.filter.learn_inside(self.sensor, self.t, self.present)
+        self.filter.learn_inside(self.sensor, self.t, self.present, self.most)
     }
 }
 
@@ -75,6 +78,6 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>, H: Observation> Inside for LearnWhole<'
     type Output = Result<T::Mask, Fault>;
     #[inline(always)]
     fn go(self) -> Self::Output {
-        self.filter.learn_inside(self.sensor, self.t, Present::All)
+        self.filter.learn_inside(self.sensor, self.t, Present::All, None)
     }
 }

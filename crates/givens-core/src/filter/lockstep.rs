@@ -137,7 +137,7 @@ impl<X: Over<M>, M, P: Pack, B: Grow<P>> Filter<'_, X, M, P, B> {
         // where every lane fails, there is no innovation: not that of the row before
         self.present = 0;
         self.parts().scores.fill(P::zero());
-        let Ok(sick) = self.learn(sensor, at, Present::Lanes(present)) else { return everybody };
+        let Ok(sick) = self.learn(sensor, at, Present::Lanes(present), None) else { return everybody };
         // a squared innovation that overflows is a fault also where the state is known, and the belief stays
         let scored = self.parts().scores[0].finite();
         sick | !(scored & self.all_finite())

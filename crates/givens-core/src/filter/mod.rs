@@ -8,6 +8,7 @@ mod distinct;
 mod error;
 mod fits;
 mod form;
+mod gate;
 mod gaussian;
 mod inside;
 mod known;

@@ -151,9 +151,8 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
     /// is then as before, and the innovation empty.
     pub fn update<H: Observation>(&mut self, sensor: &H, z: &[f64]) -> Result<(), StepError> {
         self.make_ready(sensor, z, z.len())?;
-        let (time, step) = (self.time, self.step);
-        let learnt = self.learn_whole(sensor, T::of(time));
-        learnt.map(|_| ()).map_err(|fault| StepError { fault, time, step })
+        let learnt = self.learn_whole(sensor, T::of(self.time));
+        learnt.map(|_| ()).map_err(|fault| self.fail(fault))
     }
 
     /// Teaches the belief the components of a measurement that are there: `present[i]` tells for component i. With
@@ -168,13 +167,17 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
         present: &[bool],
     ) -> Result<(), StepError> {
         self.make_ready(sensor, z, present.len())?;
-        let (time, step) = (self.time, self.step);
-        let learnt = self.learn(sensor, T::of(time), Present::Some(present));
-        learnt.map(|_| ()).map_err(|fault| StepError { fault, time, step })
+        let learnt = self.learn(sensor, T::of(self.time), Present::Some(present), None);
+        learnt.map(|_| ()).map_err(|fault| self.fail(fault))
     }
 
     /// Checks a measurement, of which it was `told` for so many components whether they are there, and lays it ready.
-    fn make_ready<H: Observation>(&mut self, sensor: &H, z: &[f64], told: usize) -> Result<(), StepError> {
+    pub(super) fn make_ready<H: Observation>(
+        &mut self,
+        sensor: &H,
+        z: &[f64],
+        told: usize,
+    ) -> Result<(), StepError> {
         self.present = 0;
         self.parts().scores.fill(T::zero());
         let (time, step, d) = (self.time, self.step, sensor.measures());
@@ -203,13 +206,15 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
         Ok(())
     }
 
-    /// Takes in the measurement that lies ready, made at time `t`; the lanes in which that was not done.
+    /// Takes in the measurement that lies ready, made at time `t`, unless its NIS is above `most` in every lane; the lanes in
+    /// which that was not done.
     #[inline(always)]
     pub(super) fn learn_inside<H: Observation>(
         &mut self,
         sensor: &H,
         t: T,
         present: Present<T>,
+        most: Option<T>,
     ) -> Result<T::Mask, Fault> {
         let d = sensor.measures();
         let (rule, block, moved) = (self.method.rule(), self.method.block(), self.moved);
@@ -243,7 +248,6 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
         let (nis, log_likelihood) = scores.split_at_mut(1);
         let (nis, log_likelihood) = (&mut nis[0], &mut log_likelihood[0]);
         let mut innovation = InnovationMut { predicted, nu, factor, white, nis, log_likelihood };
-        let learning = !learnt.turn.is_empty();
         let updated = update::<_, _, _, X::Form>(
             &rule,
             block,
@@ -253,12 +257,15 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
             measurement,
             &belief,
             &mut innovation,
-            learning,
+            !learnt.turn.is_empty(),
             scratch,
         )?;
         sick = sick | updated.sick;
         let present = updated.present;
-        if let Some(posterior) = updated.posterior {
+        let gated = most.is_some_and(|most| most.lt(scores[0]).all());
+        if gated {
+            scores[1] = T::zero();
+        } else if let Some(posterior) = updated.posterior {
             match judge(before, posterior.factor, updated.exact, floor) {
                 Ok(more) => sick = sick | more,
                 Err(fault) => {
@@ -269,7 +276,7 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
             posterior.settle(&mut belief, &mut learnt);
         }
         self.present = present;
-        self.moved &= present == 0;
+        self.moved &= present == 0 || gated;
         self.step += 1;
         Ok(sick)
     }

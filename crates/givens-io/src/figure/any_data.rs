@@ -106,7 +106,7 @@ proptest! {
             name: String::new(),
             plane: has_plane.then_some(plane),
             states: vec![series; states],
-            nis: has_nis.then_some(NisSeries { time, nis, lower, upper, all: None }),
+            nis: has_nis.then_some(NisSeries { time, nis, lower, upper, gated: Vec::new(), all: None }),
         };
         let figure = TrackFigure { tracks: vec![track; tracks], smoothed, ..TrackFigure::default() }.figure();
         let text = svg(&figure);

@@ -10,7 +10,7 @@ use crate::findings::Findings;
 /// Columns of every table.
 const COLUMNS: &[&str] = &["time", "sensor", "track_id"];
 /// Columns that an output has beside the states.
-const RESULTS: &[&str] = &["nis", "nis_dof", "log_likelihood"];
+const RESULTS: &[&str] = &["nis", "nis_dof", "log_likelihood", "gated"];
 
 /// What a name is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -10,20 +10,21 @@ use crate::model_file::Model;
 use crate::table::Tracks;
 
 /// The header.
-pub(super) fn header(model: &Model, tracks: &Tracks) -> io::Result<Vec<u8>> {
+pub(super) fn header(model: &Model, tracks: &Tracks, gated: bool) -> io::Result<Vec<u8>> {
     let mut header = vec!["time".to_owned()];
     header.extend(tracks.has_track_id.then(|| "track_id".to_owned()));
     header.extend(tracks.has_sensor.then(|| "sensor".to_owned()));
     header.extend(model.states.iter().cloned());
     header.extend(model.states.iter().map(|name| format!("{name}_std")));
     header.extend(["nis", "nis_dof", "log_likelihood"].map(str::to_owned));
+    header.extend(gated.then(|| "gated".to_owned()));
     let mut table = csv::Writer::from_writer(Vec::new());
     table.write_record(&header).map_err(told)?;
     table.into_inner().map_err(csv::IntoInnerError::into_error)
 }
 
 /// The rows of these lines.
-pub(super) fn rows(model: &Model, tracks: &Tracks, lines: &[Line]) -> io::Result<Vec<u8>> {
+pub(super) fn rows(model: &Model, tracks: &Tracks, gated: bool, lines: &[Line]) -> io::Result<Vec<u8>> {
     let mut rows = Rows { table: csv::Writer::from_writer(Vec::new()), digits: String::new() };
     let n = model.states.len();
     for line in lines {
@@ -51,6 +52,10 @@ pub(super) fn rows(model: &Model, tracks: &Tracks, lines: &[Line]) -> io::Result
                 }
             }
             None => (0..2 * n + 3).try_for_each(|_| rows.text(""))?,
+        }
+        if gated {
+            let of = line.estimate.filter(|_| !line.started).map(|(est, k)| est.gated[k]);
+            rows.text(of.map_or("", |gated| if gated { "1" } else { "0" }))?;
         }
         rows.end()?;
     }

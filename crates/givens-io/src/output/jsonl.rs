@@ -10,12 +10,12 @@ use super::Line;
 use crate::model_file::Model;
 
 /// The objects of these lines.
-pub(super) fn rows(model: &Model, smoothed: bool, lines: &[Line]) -> io::Result<Vec<u8>> {
+pub(super) fn rows(model: &Model, smoothed: bool, gated: bool, lines: &[Line]) -> io::Result<Vec<u8>> {
     let columns: Vec<&str> =
         model.sensors.iter().flat_map(|sensor| sensor.columns.iter().map(String::as_str)).collect();
     let mut out = Vec::new();
     for line in lines {
-        serde_json::to_writer(&mut out, &Object { columns: &columns, smoothed, line })?;
+        serde_json::to_writer(&mut out, &Object { columns: &columns, smoothed, gated, line })?;
         out.push(b'\n');
     }
     Ok(out)
@@ -26,12 +26,14 @@ struct Object<'a> {
     columns: &'a [&'a str],
     /// Whether the filtered belief stands beside the smoothed one.
     smoothed: bool,
+    /// Whether it is told that the row was beyond the gate.
+    gated: bool,
     line: &'a Line<'a>,
 }
 
 impl Serialize for Object<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let Self { columns, smoothed, line } = *self;
+        let Self { columns, smoothed, gated, line } = *self;
         let mut map = serializer.serialize_map(None)?;
         let text = &line.row.time_text;
         match text.parse::<f64>() {
@@ -70,6 +72,9 @@ impl Serialize for Object<'_> {
         map.serialize_entry("nis", &stepped.map(|(est, k)| est.nis[k]))?;
         map.serialize_entry("nis_dof", &stepped.map(|(est, k)| est.nis_dof[k]))?;
         map.serialize_entry("log_likelihood", &stepped.map(|(est, k)| est.log_likelihood[k]))?;
+        if gated {
+            map.serialize_entry("gated", &stepped.map(|(est, k)| est.gated[k]))?;
+        }
         map.end()
     }
 }

@@ -20,7 +20,7 @@ use crate::table::{Row, Track, Tracks};
 /// How answers are written.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Format {
-    /// `time[,track_id][,sensor],<state>…,<state>_std…,nis,nis_dof,log_likelihood`.
+    /// `time[,track_id][,sensor],<state>…,<state>_std…,nis,nis_dof,log_likelihood[,gated]`.
     #[default]
     Csv,
     /// One JSON object per row, with all matrices.
@@ -88,6 +88,8 @@ pub struct AnswerWriter<'a> {
     pub tracks: &'a Tracks,
     /// Whether the filtered belief stands beside the smoothed one, in JSON lines.
     pub smoothed: bool,
+    /// Whether it is told which rows were beyond the gate.
+    pub gated: bool,
     /// How many.
     pub threads: Option<NonZeroUsize>,
 }
@@ -99,7 +101,7 @@ impl AnswerWriter<'_> {
     /// What the writer says.
     pub fn header(&self, out: &mut dyn Write) -> io::Result<()> {
         match self.format {
-            Format::Csv => out.write_all(&csv::header(self.model, self.tracks)?),
+            Format::Csv => out.write_all(&csv::header(self.model, self.tracks, self.gated)?),
             Format::Jsonl => Ok(()),
         }
     }
@@ -109,7 +111,7 @@ impl AnswerWriter<'_> {
     /// # Errors
     /// What the writer says.
     pub fn rows(&self, out: &mut dyn Write, parts: &[Part]) -> io::Result<()> {
-        let Self { format, model, tracks, smoothed, threads } = *self;
+        let Self { format, model, tracks, smoothed, gated, threads } = *self;
         let mut lines = Vec::new();
         for &Part { track, from, row: first, started, estimates } in parts {
             let rows = track.rows.iter().enumerate().take(first + estimates.len()).skip(from);
@@ -122,13 +124,18 @@ impl AnswerWriter<'_> {
         }
         lines.sort_by_key(|line| line.row.index);
         match format {
-            Format::Csv => blocks::write(out, &lines, threads, |lines| csv::rows(model, tracks, lines)),
-            Format::Jsonl => blocks::write(out, &lines, threads, |lines| jsonl::rows(model, smoothed, lines)),
+            Format::Csv => {
+                blocks::write(out, &lines, threads, |lines| csv::rows(model, tracks, gated, lines))
+            }
+            Format::Jsonl => {
+                blocks::write(out, &lines, threads, |lines| jsonl::rows(model, smoothed, gated, lines))
+            }
         }
     }
 }
 
-/// Writes the answers, one for each of the tracks, as one table in the order of the rows. The lines are made on so many threads,
+/// Writes the answers, one for each of the tracks, as one table in the order of the rows; with `gated`, it is told which rows
+/// were beyond the gate. The lines are made on so many threads,
 /// all cores where it is not said, and are the same for any.
 ///
 /// # Errors
@@ -139,6 +146,7 @@ pub fn write_answers(
     model: &Model,
     tracks: &Tracks,
     answers: &[Answer],
+    gated: bool,
     threads: Option<NonZeroUsize>,
 ) -> io::Result<()> {
     let smoothed = answers.iter().any(|answer| answer.estimates.is_smoothed());
@@ -147,7 +155,7 @@ pub fn write_answers(
         let from = if *from_first { *row } else { 0 };
         Part { track, from, row: *row, started: *started, estimates }
     });
-    let writer = AnswerWriter { format, model, tracks, smoothed, threads };
+    let writer = AnswerWriter { format, model, tracks, smoothed, gated, threads };
     writer.header(out)?;
     writer.rows(out, &parts.collect::<Vec<_>>())?;
     out.flush()

@@ -3,6 +3,7 @@
 use super::Track;
 use super::record::Lanes;
 use crate::filter::{Filter, Over, Prior};
+use crate::gate::limit;
 use crate::model::Observation;
 use crate::rule::Rule;
 use crate::run::{Goal, Outcome, Watch};
@@ -15,6 +16,8 @@ pub(super) struct Lockstep<'s, 't, X, M, H> {
     pub method: X,
     pub tracks: &'s [Track<'t, M, H>],
     pub goal: Goal,
+    /// Of the gate, as in `Task`.
+    pub limits: &'s [f64],
     pub watch: Watch<'s>,
 }
 
@@ -37,7 +40,7 @@ impl<X: Over<M>, M, H: Observation, E: Element> Job<E> for Lockstep<'_, '_, X, M
 
     #[inline(always)]
     fn run<P: Pack<Element = E>>(self) -> Self::Output {
-        let Self { method, tracks, goal, watch } = self;
+        let Self { method, tracks, goal, limits, watch } = self;
         let nothing = || tracks.iter().map(|_| None).collect();
         let Some((mut filter, begun)) = begin::<P, X, M, H>(method, tracks, goal) else {
             return nothing();
@@ -55,14 +58,16 @@ impl<X: Over<M>, M, H: Observation, E: Element> Job<E> for Lockstep<'_, '_, X, M
             if watch.stopped() || rows.well == 0 {
                 return nothing();
             }
-            rows.read(tracks, k);
+            rows.read(tracks, k, limits);
             filter.set_controls_in_lanes(&rows.before);
             let moved = history.predict_lanes(&mut filter, &rows.from, &rows.to, &mut spare);
             lanes.predicted(&filter, k, rows.active);
             filter.set_controls_in_lanes(&rows.after);
-            let taught = filter.update_lanes(tracks[0].sensors, &rows.to, &rows.z, &rows.present);
+            let (sensors, to, z, present) = (tracks[0].sensors, &rows.to, &rows.z, &rows.present);
+            let limit = (!limits.is_empty()).then_some(rows.limit);
+            let (taught, gated) = filter.update_lanes_gated(sensors, to, z, present, limit, &mut spare);
             rows.well &= !((moved | taught).bits() & rows.active);
-            lanes.updated(&filter, k, &rows.present, rows.active);
+            lanes.updated(&filter, k, &rows.present, rows.active, gated.bits());
             watch.count(rows.active.count_ones() as usize);
             rows.next();
         }
@@ -138,6 +143,8 @@ struct Rows<P: Pack> {
     to: [f64; MAX_WIDTH],
     z: Vec<P>,
     present: Vec<P::Mask>,
+    /// The largest NIS that is taken in.
+    limit: P,
     /// Controls on the way to the row, and from it on.
     before: Vec<P>,
     after: Vec<P>,
@@ -160,6 +167,7 @@ impl<P: Pack> Rows<P> {
             to: from,
             z: vec![P::zero(); d],
             present: vec![P::Mask::splat(false); d],
+            limit: P::zero(),
             before: vec![P::zero(); c],
             after: vec![P::zero(); c],
             well: begun,
@@ -169,7 +177,7 @@ impl<P: Pack> Rows<P> {
 
     /// Reads row `k` of every track that has one; a lane that has none, or is not well, stays where it is.
     #[inline(always)]
-    fn read<M, H: Observation>(&mut self, tracks: &[Track<M, H>], k: usize) {
+    fn read<M, H: Observation>(&mut self, tracks: &[Track<M, H>], k: usize, limits: &[f64]) {
         self.active = 0;
         self.present.fill(P::Mask::splat(false));
         for (lane, track) in tracks.iter().enumerate() {
@@ -181,12 +189,16 @@ impl<P: Pack> Rows<P> {
             self.to[lane] = row.map_or(self.from[lane], |row| row.time);
             let Some(row) = row else { continue };
             self.active |= 1 << lane;
+            let mut dof = 0;
             for (i, &z) in row.z.iter().enumerate() {
+                dof += usize::from(!z.is_nan());
                 self.z[i] = self.z[i].with_lane(lane, P::Element::of(z));
                 if !z.is_nan() {
                     self.present[i] = self.present[i] | P::Mask::of_bits(1 << lane);
                 }
             }
+            let most = limit(limits, dof).unwrap_or(f64::INFINITY);
+            self.limit = self.limit.with_lane(lane, P::Element::of(most));
             for (i, &u) in row.u.iter().enumerate() {
                 self.after[i] = self.after[i].with_lane(lane, P::Element::of(u));
                 if k == 0 {

@@ -8,7 +8,7 @@ mod workers;
 use crate::filter::{Fault, Gaussian, StepError};
 use crate::model::Observation;
 use crate::run::{Goal, Outcome, Watch, run_until};
-use crate::{Computes, Data};
+use crate::{Computes, Data, gate};
 use core::num::NonZeroUsize;
 use core::sync::atomic::{AtomicBool, AtomicUsize};
 use lockstep::Lockstep;
@@ -107,14 +107,18 @@ impl Batch<'_> {
         M: Sync,
         H: Observation + Sync,
     {
-        self.run_with(method, tracks, |track| self.alone(method, track))
+        match gate::limits(method.gate(), widest(tracks)) {
+            Ok(limits) => self.run_with(method, tracks, &limits, |track| self.alone(method, track, &limits)),
+            Err(fault) => refused(fault, tracks, self.goal),
+        }
     }
 
-    /// The same; `alone` runs a track that no pack serves.
+    /// The same with the limits of the gate; `alone` runs a track that no pack serves.
     pub(crate) fn run_with<X, M, H>(
         &self,
         method: X,
         tracks: &[Track<M, H>],
+        limits: &[f64],
         alone: impl Fn(&Track<M, H>) -> Option<Outcome> + Sync,
     ) -> Vec<Option<Outcome>>
     where
@@ -125,7 +129,7 @@ impl Batch<'_> {
         let by = method.method();
         let width = if packable(&by, self.goal) { lockstep::width::<X::Number>(self.vectors) } else { 1 };
         let pack = |of: &[Track<M, H>]| {
-            let job = Lockstep { method: by, tracks: of, goal: self.goal, watch: self.watch() };
+            let job = Lockstep { method: by, tracks: of, goal: self.goal, limits, watch: self.watch() };
             self.vectors.run_in_registers::<X::Number, _>(job).unwrap_or_default()
         };
         self.run_by(tracks, width, pack, alone)
@@ -164,14 +168,20 @@ impl Batch<'_> {
         &self,
         method: X,
         track: &Track<M, H>,
+        limits: &[f64],
     ) -> Option<Outcome> {
         if self.watch().stopped() {
             return None;
         }
         let Track { model, sensors, data, prior, parameters, at } = *track;
         let (rows, t0) = (data.rows().collect::<Vec<_>>(), data.start());
-        run_until(method, model, sensors, &rows, t0, prior, parameters, self.goal, at, self.watch())
+        run_until(method, model, sensors, &rows, t0, prior, parameters, self.goal, limits, at, self.watch())
     }
+}
+
+/// The most components that a measurement of any track has.
+pub(crate) fn widest<M, H: Observation>(tracks: &[Track<M, H>]) -> usize {
+    tracks.iter().map(|track| track.sensors.measures()).max().unwrap_or(0)
 }
 
 /// The outcomes of a method that is not for these models.

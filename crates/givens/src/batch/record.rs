@@ -42,6 +42,7 @@ impl<P: Pack> Lanes<P> {
                 nis: vec![f64::NAN; rows],
                 nis_dof: vec![0; rows],
                 log_likelihood: zeros(1),
+                gated: vec![false; rows],
                 ..Estimates::new(n, d, smoothed)
             }
         };
@@ -67,7 +68,8 @@ impl<P: Pack> Lanes<P> {
         self.matrix = cov;
     }
 
-    /// Writes down what `active` lanes believe after row `k`, of whose components those `present` were there.
+    /// Writes down what `active` lanes believe after row `k`, of whose components those `present` were there, and which
+    /// those `gated` have not taken in.
     #[inline(always)]
     pub fn updated<X: Over<M>, M>(
         &mut self,
@@ -75,6 +77,7 @@ impl<P: Pack> Lanes<P> {
         k: usize,
         present: &[P::Mask],
         active: u32,
+        gated: u32,
     ) {
         let n = self.states;
         self.put(filter.mean(), k, active, |out| &mut out.mean);
@@ -87,6 +90,9 @@ impl<P: Pack> Lanes<P> {
             self.put(&matrix[..n * n], k, active, |out| &mut out.filtered_cov);
         }
         self.innovation(&filter.innovation(), &mut matrix, k, present, active);
+        for (lane, out) in self.of.iter_mut().enumerate().filter(|(lane, _)| active >> lane & 1 == 1) {
+            out.gated[k] = gated >> lane & 1 == 1;
+        }
         self.matrix = matrix;
     }
 

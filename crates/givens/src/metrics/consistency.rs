@@ -3,6 +3,7 @@
 use super::chi_squared::chi_squared_band;
 use crate::Estimates;
 use crate::scalar::Shown;
+use core::iter::repeat;
 
 /// The NIS of a run against its χ² band.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -13,6 +14,31 @@ pub struct Consistency {
     pub band: (f64, f64),
     /// Degrees of freedom, of all rows together.
     pub dof: usize,
+}
+
+/// The same of rows that come in portions.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ConsistencySums {
+    nis: f64,
+    dof: usize,
+}
+
+impl ConsistencySums {
+    /// Adds the rows of some estimates that were taken in.
+    pub fn add(&mut self, est: &Estimates) {
+        let gated = est.gated.iter().copied().chain(repeat(false));
+        for ((&nis, &dof), gated) in est.nis.iter().zip(&est.nis_dof).zip(gated) {
+            if !gated {
+                self.nis += if nis.is_nan() { 0.0 } else { nis };
+                self.dof += dof;
+            }
+        }
+    }
+
+    /// Of all rows so far.
+    pub fn consistency(&self) -> Consistency {
+        Consistency::of_sum(self.nis, self.dof)
+    }
 }
 
 /// What the mean NIS says, in a word.
@@ -29,14 +55,12 @@ pub enum Verdict {
 }
 
 impl Consistency {
-    /// Of a run over one trajectory, or of several together.
+    /// Of a run over one trajectory, or of several together: of the rows that were taken in, without those beyond a
+    /// [gate](crate::Gated).
     pub fn of<'a>(runs: impl IntoIterator<Item = &'a Estimates>) -> Self {
-        let (mut nis, mut dof) = (0.0, 0);
-        for est in runs {
-            dof += est.nis_dof.iter().sum::<usize>();
-            nis += est.nis.iter().filter(|x| !x.is_nan()).sum::<f64>();
-        }
-        Self::of_sum(nis, dof)
+        let mut sums = ConsistencySums::default();
+        runs.into_iter().for_each(|est| sums.add(est));
+        sums.consistency()
     }
 
     /// Of the sum of all NIS, of so many degrees of freedom together.

@@ -6,4 +6,4 @@ mod consistency;
 
 pub use accuracy::{Accuracy, AccuracySums, Truth, nees};
 pub use chi_squared::{chi_squared_band, chi_squared_cdf, chi_squared_quantile};
-pub use consistency::{Consistency, Verdict};
+pub use consistency::{Consistency, ConsistencySums, Verdict};

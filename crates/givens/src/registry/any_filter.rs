@@ -31,16 +31,23 @@ pub struct AnyFilter<'m> {
     inner: Box<dyn Stepping + Send + Sync + 'm>,
     /// Which components of the last measurement were there.
     present: Vec<bool>,
+    /// Whether it was beyond the gate.
+    gated: bool,
 }
 
 impl<'m> AnyFilter<'m> {
-    pub(super) fn of<X, M, H, T: Element>(filter: OwnFilter<'m, X, M, T>, sensors: &'m H) -> Self
+    pub(super) fn of<X, M, H, T: Element>(
+        filter: OwnFilter<'m, X, M, T>,
+        sensors: &'m H,
+        limits: Vec<f64>,
+    ) -> Self
     where
         X: Over<M> + Send + Sync + 'static,
         M: Sync,
         H: Observation + Sync,
     {
-        Self { inner: Box::new(With::new(filter, sensors)), present: vec![false; sensors.measures()] }
+        let present = vec![false; sensors.measures()];
+        Self { inner: Box::new(With::new(filter, sensors, limits)), present, gated: false }
     }
 }
 
@@ -56,7 +63,7 @@ impl AnyFilter<'_> {
     }
 
     /// Teaches the belief a measurement of all sensors at the present time, of length d: NaN where a component is missing.
-    /// With none of them, the belief stays as predicted.
+    /// With none of them, the belief stays as predicted, and so it does by one beyond the [gate](Self::gated).
     ///
     /// # Errors
     /// A measurement of the wrong length or that is infinite, a sensor model that is not finite or whose noise is no
@@ -69,7 +76,8 @@ impl AnyFilter<'_> {
         if done.is_err() {
             self.present.fill(false);
         }
-        done
+        self.gated = matches!(done, Ok(false));
+        done.map(|_| ())
     }
 
     /// Sets the controls, which hold until they are set again. A model that has some neither predicts nor is measured by
@@ -124,6 +132,11 @@ impl AnyFilter<'_> {
         &self.present
     }
 
+    /// Whether the last measurement was beyond the gate, and so not taken in; see [`Gated`](crate::Gated).
+    pub fn gated(&self) -> bool {
+        self.gated
+    }
+
     /// What the last measurement said, of the components that were [there](Self::present); empty before the first and
     /// after an error.
     pub fn innovation(&self) -> Innovation<'_, f64> {
@@ -148,7 +161,7 @@ impl AnyFilter<'_> {
         self.innovation().nu.len()
     }
 
-    /// Log-likelihood of the last measurement; 0 if nothing was measured.
+    /// Log-likelihood of the last measurement; 0 if nothing was measured, or taken in.
     pub fn log_likelihood(&self) -> f64 {
         self.innovation().log_likelihood
     }
@@ -167,9 +180,9 @@ impl AnyFilter<'_> {
 
 impl core::fmt::Debug for AnyFilter<'_> {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        let Self { inner, present } = self;
+        let Self { inner, present, gated } = self;
         let mut of = f.debug_struct("AnyFilter");
         of.field("time", &inner.time()).field("mean", &inner.mean()).field("factor", &inner.factor());
-        of.field("present", present).finish()
+        of.field("present", present).field("gated", gated).finish()
     }
 }

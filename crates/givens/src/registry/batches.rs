@@ -3,11 +3,11 @@
 use super::choice::Choice;
 use super::dispatch::{Computing, Job, Packed};
 use super::words::Precision;
-use crate::Single;
-use crate::batch::{Batch, Track, refused};
+use crate::batch::{Batch, Track, refused, widest};
 use crate::filter::predict::{OneTransition, TimeUpdate};
 use crate::model::{AnyObservation, AnySde, AnyTransition, Observation, Sde, Transition};
 use crate::run::Outcome;
+use crate::{Single, gate};
 use std::collections::HashMap;
 
 impl Choice {
@@ -46,11 +46,15 @@ impl Choice {
         if let Err(fault) = self.discrete::<AnyTransition, _>(Nothing) {
             return refused(fault, tracks, batch.goal);
         }
+        let limits = &match gate::limits(self.gate, widest(tracks)) {
+            Ok(limits) => limits,
+            Err(fault) => return refused(fault, tracks, batch.goal),
+        };
         let alone = |track: &Track<AnyTransition, AnyObservation>| {
-            self.discrete(Alone { track, batch }).ok().flatten()
+            self.discrete(Alone { track, batch, limits }).ok().flatten()
         };
         match self.packed(OneTransition) {
-            Some(packed) => self.in_packs(packed, tracks, batch, alone),
+            Some(packed) => self.in_packs(packed, tracks, batch, limits, alone),
             None => batch.run_by(tracks, 1, |_| Vec::new(), alone),
         }
     }
@@ -63,10 +67,15 @@ impl Choice {
         if let Err(fault) = self.continuous::<AnySde, _>(Nothing) {
             return refused(fault, tracks, batch.goal);
         }
-        let alone =
-            |track: &Track<AnySde, AnyObservation>| self.continuous(Alone { track, batch }).ok().flatten();
+        let limits = &match gate::limits(self.gate, widest(tracks)) {
+            Ok(limits) => limits,
+            Err(fault) => return refused(fault, tracks, batch.goal),
+        };
+        let alone = |track: &Track<AnySde, AnyObservation>| {
+            self.continuous(Alone { track, batch, limits }).ok().flatten()
+        };
         match self.ito_taylor().and_then(|time| self.packed(time)) {
-            Some(packed) => self.in_packs(packed, tracks, batch, alone),
+            Some(packed) => self.in_packs(packed, tracks, batch, limits, alone),
             None => batch.run_by(tracks, 1, |_| Vec::new(), alone),
         }
     }
@@ -78,16 +87,17 @@ impl Choice {
         packed: Packed<U>,
         tracks: &[Track<M, H>],
         batch: &Batch,
+        limits: &[f64],
         alone: impl Fn(&Track<M, H>) -> Option<Outcome> + Sync,
     ) -> Vec<Option<Outcome>>
     where
         U: TimeUpdate<M> + Sync,
     {
         match (packed, self.precision) {
-            (Packed::Points(by), Precision::F64) => batch.run_with(by, tracks, alone),
-            (Packed::Points(by), Precision::F32) => batch.run_with(Single(by), tracks, alone),
-            (Packed::Taylor(by), Precision::F64) => batch.run_with(by, tracks, alone),
-            (Packed::Taylor(by), Precision::F32) => batch.run_with(Single(by), tracks, alone),
+            (Packed::Points(by), Precision::F64) => batch.run_with(by, tracks, limits, alone),
+            (Packed::Points(by), Precision::F32) => batch.run_with(Single(by), tracks, limits, alone),
+            (Packed::Taylor(by), Precision::F64) => batch.run_with(by, tracks, limits, alone),
+            (Packed::Taylor(by), Precision::F32) => batch.run_with(Single(by), tracks, limits, alone),
         }
     }
 }
@@ -142,11 +152,12 @@ impl<M> Job<M> for Nothing {
 struct Alone<'s, 't, M, H> {
     track: &'s Track<'t, M, H>,
     batch: &'s Batch<'s>,
+    limits: &'s [f64],
 }
 
 impl<M, H: Observation> Job<M> for Alone<'_, '_, M, H> {
     type Done = Option<Outcome>;
     fn with<X: Computing<M>>(self, method: X) -> Self::Done {
-        self.batch.alone(method, self.track)
+        self.batch.alone(method, self.track, self.limits)
     }
 }

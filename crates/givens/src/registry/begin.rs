@@ -4,6 +4,7 @@ use super::any_filter::AnyFilter;
 use super::choice::Choice;
 use super::dispatch::{Computing, Job};
 use crate::filter::{Gaussian, Snapshot, StepError};
+use crate::gate;
 use crate::model::{Observation, Sde, Transition};
 use crate::run::{Start, start_own};
 
@@ -82,7 +83,8 @@ impl<'m, M: Sync, H: Observation + Sync> Job<M> for Begin<'_, 'm, M, H> {
     type Done = Result<AnyFilter<'m>, StepError>;
     fn with<X: Computing<M>>(self, method: X) -> Self::Done {
         let Self { model, sensors, start } = self;
+        let limits = gate::limits(method.gate(), sensors.measures()).map_err(|fault| start.fail(fault))?;
         let filter = start_own::<X::Method, M, H, X::Number>(method.method(), model, sensors, start, false)?;
-        Ok(AnyFilter::of(filter, sensors))
+        Ok(AnyFilter::of(filter, sensors, limits))
     }
 }

@@ -36,6 +36,8 @@ pub struct Choice {
     pub integrator: Integrator,
     /// What it computes with.
     pub precision: Precision,
+    /// The probability of the χ² quantile beyond which a row is not taken in; none: every row is. See [`Gated`](crate::Gated).
+    pub gate: Option<f64>,
     /// Options of the unscented rule.
     pub unscented: Unscented,
     /// Options of the Gauss–Hermite rule.

@@ -9,7 +9,7 @@ use crate::filter::predict::{EulerMaruyama, ItoTaylor, LevelSet, MomentOde, OneT
 use crate::filter::{Covariance, Fault, SquareRoot};
 use crate::model::{Sde, Transition};
 use crate::rule::{Cubature3, Cubature5, Rule, RuleError, Taylor};
-use crate::{Computes, Single};
+use crate::{Computes, Gated, Single, gate};
 
 /// What is done with a method, once its parts are types.
 pub(super) trait Job<M> {
@@ -42,6 +42,7 @@ impl Choice {
             self.integrator.check()?;
             self.integrator.resolves(self.precision.epsilon())?;
         }
+        self.gate.map_or(Ok(()), gate::check)?;
         match self.rule {
             RuleName::CentralDifference => self.central_difference.check(states),
             RuleName::Taylor => Taylor.check(states),
@@ -138,11 +139,12 @@ impl Choice {
     {
         let root = Parts::<R, SquareRoot, U>::new(rule, self.block, time);
         let covariance = Parts::<R, Covariance, U>::new(rule, self.block, time);
+        let gate = self.gate;
         match (self.form, self.precision) {
-            (FormName::Covariance, Precision::F64) => Ok(job.with(covariance)),
+            (FormName::Covariance, Precision::F64) => Ok(job.with(Gated { method: covariance, gate })),
             (FormName::Covariance, Precision::F32) => Err(SINGLE_IN_COVARIANCE),
-            (FormName::SquareRoot, Precision::F64) => Ok(job.with(root)),
-            (FormName::SquareRoot, Precision::F32) => Ok(job.with(Single(root))),
+            (FormName::SquareRoot, Precision::F64) => Ok(job.with(Gated { method: root, gate })),
+            (FormName::SquareRoot, Precision::F32) => Ok(job.with(Gated { method: Single(root), gate })),
         }
     }
 }

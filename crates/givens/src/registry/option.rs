@@ -136,6 +136,11 @@ pub const OPTIONS: &[OptionInfo] = &[
     ),
     option("atol", Reader::AdaptiveSolver, "the same in the states' units, added to it (0)"),
     option("precision", Reader::Every, "what it computes with: f64 (default) | f32 (square root)"),
+    option(
+        "gate",
+        Reader::Every,
+        "rows beyond this χ² quantile are not taken in: a probability, such as 0.9999 (off)",
+    ),
     option("alpha", Reader::Rule(RuleName::Unscented), "spread of the points (1)"),
     option("beta", Reader::Rule(RuleName::Unscented), "added to the centre's weight (0)"),
     option("kappa", Reader::Rule(RuleName::Unscented), "the plain transform's parameter (3 - n)"),

@@ -9,8 +9,9 @@ use super::words::{
 };
 use crate::filter::Block;
 use crate::filter::predict::{Gauge, Root, Velocity};
+use crate::gate::check;
 use crate::ode::{Integrator, Steps};
-use crate::rule::{CentralDifference, GaussHermite, Unscented};
+use crate::rule::{CentralDifference, GaussHermite, RuleError, Unscented};
 use crate::scalar::Shown;
 
 /// Chooses a method by name and sets its parts and options.
@@ -66,6 +67,7 @@ fn preset(entry: &Entry) -> Choice {
         velocity: Velocity::default(),
         integrator: Integrator::default(),
         precision: Precision::F64,
+        gate: None,
         unscented: Unscented::default(),
         gauss_hermite: GaussHermite::default(),
         central_difference: CentralDifference::default(),
@@ -134,6 +136,12 @@ fn together(entry: &Entry, choice: &Choice, settings: &[Setting]) -> Result<(), 
 fn option(choice: &mut Choice, at: usize, setting: &Setting) -> Result<(), SettingError> {
     let number = || number(at, setting);
     match setting.key.as_str() {
+        "gate" => {
+            let gate = number()?;
+            let wrong = |error: RuleError| SettingError::refused(at, error.to_string());
+            check(gate).map_err(wrong)?;
+            choice.gate = Some(gate);
+        }
         "alpha" => choice.unscented.alpha = number()?,
         "beta" => choice.unscented.beta = number()?,
         "kappa" => choice.unscented.kappa = Some(number()?),

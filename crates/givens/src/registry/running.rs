@@ -2,10 +2,10 @@
 
 use super::choice::Choice;
 use super::dispatch::{Computing, Job};
-use crate::Row;
 use crate::filter::{Fault, Gaussian, StepError};
 use crate::model::{AnyObservation, AnySde, AnyTransition, Observation, Sde, Transition};
-use crate::run::{Goal, Outcome, Watch, run_until};
+use crate::run::{Goal, Outcome};
+use crate::{Row, run_at};
 
 impl Choice {
     /// Runs a discrete method over a trajectory, `at` these times besides; see [`run_at`](crate::run_at). A continuous one fails at the first row.
@@ -79,8 +79,7 @@ impl<M> Span<'_, M> {
 impl<M> Job<M> for Span<'_, M> {
     type Done = Outcome;
     fn with<X: Computing<M>>(self, method: X) -> Outcome {
-        let outcome = Outcome::new(self.prior.mean().len(), self.sensors.measures(), self.goal);
         let Span { model, sensors, rows, t0, prior, goal, at } = self;
-        run_until(method, model, sensors, rows, t0, prior, &[], goal, at, Watch::default()).unwrap_or(outcome)
+        run_at(method, model, sensors, rows.iter().copied(), t0, prior, goal, at)
     }
 }

@@ -1,6 +1,7 @@
 //! Any filter behind a pointer, whatever its types: what it tells is in `f64`.
 
 use crate::filter::{Innovation, Over, Snapshot, StepError};
+use crate::gate::teach;
 use crate::model::Observation;
 use crate::ode::Work;
 use crate::run::{OwnFilter, of_kind, told, write_cov};
@@ -9,7 +10,8 @@ use crate::scalar::Real;
 /// What any filter can do.
 pub(super) trait Stepping {
     fn predict(&mut self, t: f64) -> Result<(), StepError>;
-    fn update(&mut self, z: &[f64], present: &[bool]) -> Result<(), StepError>;
+    /// Whether it was taken in.
+    fn update(&mut self, z: &[f64], present: &[bool]) -> Result<bool, StepError>;
     fn set_controls(&mut self, u: &[f64]) -> Result<(), StepError>;
     fn set_parameters(&mut self, p: &[f64]) -> Result<(), StepError>;
     fn time(&self) -> f64;
@@ -25,6 +27,8 @@ pub(super) trait Stepping {
 pub(super) struct With<'m, X, M, H, T> {
     filter: OwnFilter<'m, X, M, T>,
     sensors: &'m H,
+    /// Of the gate, as in `Task`.
+    limits: Vec<f64>,
     told: Told,
 }
 
@@ -41,8 +45,8 @@ struct Told {
 }
 
 impl<'m, X: Over<M>, M, H: Observation, T: Real> With<'m, X, M, H, T> {
-    pub fn new(filter: OwnFilter<'m, X, M, T>, sensors: &'m H) -> Self {
-        let mut with = Self { filter, sensors, told: Told::default() };
+    pub fn new(filter: OwnFilter<'m, X, M, T>, sensors: &'m H, limits: Vec<f64>) -> Self {
+        let mut with = Self { filter, sensors, limits, told: Told::default() };
         with.tell();
         with
     }
@@ -71,8 +75,8 @@ impl<X: Over<M>, M, H: Observation, T: Real> Stepping for With<'_, X, M, H, T> {
         self.tell();
         done
     }
-    fn update(&mut self, z: &[f64], present: &[bool]) -> Result<(), StepError> {
-        let done = self.filter.update_present(self.sensors, z, present);
+    fn update(&mut self, z: &[f64], present: &[bool]) -> Result<bool, StepError> {
+        let done = teach(&mut self.filter, self.sensors, z, present, &self.limits);
         self.tell();
         done
     }

@@ -4,6 +4,7 @@ use super::own::OwnFilter;
 use super::recorder::{push, put, told};
 use super::watch::Watch;
 use crate::filter::{Belief, Form, Over, StepError};
+use crate::gate::teach;
 use crate::model::Observation;
 use crate::scalar::Real;
 use crate::smoother::{History, Smoothed};
@@ -47,6 +48,7 @@ impl<'t, T: Real> Between<'t, T> {
         sensors: &H,
         next: Option<(Row, &[bool])>,
         finished: &Estimates,
+        limits: &[f64],
         watch: Watch,
     ) -> Result<(), StepError> {
         let n = filter.mean().len();
@@ -62,7 +64,7 @@ impl<'t, T: Real> Between<'t, T> {
             if let (Some((row, present)), true, false) = (next, self.smoothing, last) {
                 history.predict(&mut filter, row.time)?;
                 filter.set_controls(row.u)?;
-                filter.update_present(sensors, row.z, present)?;
+                teach(&mut filter, sensors, row.z, present, limits)?;
                 history.close(&mut filter)?;
                 self.sides.push(Side {
                     history,
@@ -93,6 +95,7 @@ impl<'t, T: Real> Between<'t, T> {
         out.innovation_cov.extend(core::iter::repeat_n(f64::NAN, d * d));
         out.nis.push(f64::NAN);
         out.nis_dof.push(0);
+        out.gated.push(false);
         out.log_likelihood.push(0.0);
     }
 

@@ -22,7 +22,7 @@ pub(crate) use watch::Watch;
 use crate::filter::{Gaussian, StepError};
 use crate::model::Observation;
 use crate::scalar::Shown;
-use crate::{Computes, Data, Estimates, Row};
+use crate::{Computes, Data, Estimates, Row, gate};
 
 /// A run that stopped in the middle: what it had finished, and why it went no further.
 #[derive(Clone, Debug, PartialEq)]
@@ -121,11 +121,18 @@ pub fn run_at<'a, X: Computes<M>, M, H: Observation>(
     at: &[f64],
 ) -> Outcome {
     let rows: Vec<Row> = rows.collect();
-    run_until(method, model, sensors, &rows, t0, prior, &[], goal, at, Watch::default())
-        .unwrap_or_else(|| Outcome::new(prior.mean().len(), sensors.measures(), goal))
+    let blank = || Outcome::new(prior.mean().len(), sensors.measures(), goal);
+    let limits = match gate::limits(method.gate(), sensors.measures()) {
+        Ok(limits) => limits,
+        Err(fault) => {
+            return Outcome { failure: Some((0, StepError { fault, time: t0, step: 0 })), ..blank() };
+        }
+    };
+    run_until(method, model, sensors, &rows, t0, prior, &[], goal, &limits, at, Watch::default())
+        .unwrap_or_else(blank)
 }
 
-/// [`run_at`] with parameters in place of the model's, if there are any, that may be cancelled: then there is no outcome.
+/// [`run_at`] with parameters in place of the model's, if there are any, and the limits of a gate, that may be cancelled: then there is no outcome.
 pub(crate) fn run_until<X: Computes<M>, M, H: Observation>(
     method: X,
     model: &M,
@@ -135,6 +142,7 @@ pub(crate) fn run_until<X: Computes<M>, M, H: Observation>(
     prior: &Gaussian,
     parameters: &[f64],
     goal: Goal,
+    limits: &[f64],
     at: &[f64],
     watch: Watch,
 ) -> Option<Outcome> {
@@ -143,7 +151,7 @@ pub(crate) fn run_until<X: Computes<M>, M, H: Observation>(
     let out = &outcome.estimates;
     let blank = Estimates::new(out.states(), out.measures(), out.is_smoothed());
     let between = Between::<X::Number>::new(wanted, blank);
-    let task = Task { method: method.method(), model, sensors, parameters, goal, watch };
+    let task = Task { method: method.method(), model, sensors, parameters, goal, limits, watch };
     match Recorder::start(task, Start::Prior(t0, prior), rows.len(), between) {
         Ok(mut recorder) => {
             recorder.forward(&rows, 0..rows.len(), &mut outcome);

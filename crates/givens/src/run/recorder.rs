@@ -5,6 +5,7 @@ use super::goal::{Goal, Outcome};
 use super::own::{OwnFilter, Start, scatter, start_own};
 use super::task::{Rows, Task};
 use crate::filter::{Belief, Form, Method, Over, StepError};
+use crate::gate::teach;
 use crate::model::Observation;
 use crate::scalar::Real;
 use crate::smoother::{FixedPoint, History};
@@ -125,21 +126,21 @@ impl<'t, 'm, X: Over<M>, M, H: Observation, T: Real> Recorder<'t, 'm, X, M, H, T
     /// Goes on to the times that are wanted behind the last row.
     pub fn beyond(&mut self, outcome: &mut Outcome) {
         if outcome.failure.is_none() {
-            let Task { sensors, watch, .. } = self.task;
-            let beyond = self.between.ahead(&self.filter, sensors, None, &outcome.estimates, watch);
+            let Task { sensors, limits, watch, .. } = self.task;
+            let beyond = self.between.ahead(&self.filter, sensors, None, &outcome.estimates, limits, watch);
             outcome.failure = beyond.err().map(|error| (self.finished.saturating_sub(1), error));
         }
     }
 
     /// Takes in one row and writes it to `out`; `before` is the row above it.
     fn row(&mut self, before: Option<Row>, row: Row, out: &mut Estimates) -> Result<(), StepError> {
-        let Task { sensors, goal, watch, .. } = self.task;
+        let Task { sensors, goal, limits, watch, .. } = self.task;
         // a control holds from its row to the next, the first one also before
         self.filter.set_controls(before.unwrap_or(row).u)?;
         for (there, z) in self.present.iter_mut().zip(row.z) {
             *there = !z.is_nan();
         }
-        self.between.ahead(&self.filter, sensors, Some((row, &self.present)), out, watch)?;
+        self.between.ahead(&self.filter, sensors, Some((row, &self.present)), out, limits, watch)?;
         self.reached = Reached::Leaving;
         match &mut self.point {
             Some(point) => point.predict(&mut self.filter, row.time)?,
@@ -148,7 +149,7 @@ impl<'t, 'm, X: Over<M>, M, H: Observation, T: Real> Recorder<'t, 'm, X, M, H, T
         self.reached = Reached::Itself;
         push(&self.filter, &mut out.predicted_mean, &mut out.predicted_cov, &mut self.spare);
         self.filter.set_controls(row.u)?;
-        self.filter.update_present(sensors, row.z, &self.present)?;
+        let taken = teach(&mut self.filter, sensors, row.z, &self.present, limits)?;
         let waiting = matches!(goal, Goal::Point(_)) && self.point.is_none();
         match &mut self.point {
             Some(point) => point.update(&self.filter)?,
@@ -159,6 +160,7 @@ impl<'t, 'm, X: Over<M>, M, H: Observation, T: Real> Recorder<'t, 'm, X, M, H, T
             return Ok(());
         }
         self.write(row.time, out);
+        out.gated.push(!taken);
         if let Goal::Lag(lag) = goal {
             let at = out.len() - 1;
             let filter = &self.filter;

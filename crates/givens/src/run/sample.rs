@@ -10,7 +10,7 @@ use crate::filter::{Gaussian, Over, StepError};
 use crate::model::Observation;
 use crate::scalar::Real;
 use crate::simulate::Stream;
-use crate::{Computes, Estimates, Failure, Row};
+use crate::{Computes, Estimates, Failure, Row, gate};
 
 /// How many trajectories to draw, and by which random numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -107,9 +107,12 @@ pub fn sample<'a, X: Computes<M>, M, H: Observation>(
     let (n, d, count) = (prior.mean().len(), sensors.measures(), rows.len());
     let mut outcome = Outcome::new(n, d, Goal::Interval);
     let between = Between::<X::Number>::new(&[], Estimates::new(n, d, true));
+    let limits = gate::limits(method.gate(), d).map_err(|fault| StepError { fault, time: t0, step: 0 });
     let (method, watch) = (method.method(), Watch::default());
-    let task = Task { method, model, sensors, parameters: &[], goal: Goal::Interval, watch };
-    let started = Recorder::start(task, Start::Prior(t0, prior), count, between);
+    let started = limits.as_ref().map_err(|&error| error).and_then(|limits| {
+        let task = Task { method, model, sensors, parameters: &[], goal: Goal::Interval, limits, watch };
+        Recorder::start(task, Start::Prior(t0, prior), count, between)
+    });
     let drawn = started.map_err(|error| (0, error)).and_then(|mut recorder| {
         recorder.forward(&rows.as_slice(), 0..count, &mut outcome);
         match outcome.failure {

@@ -12,6 +12,8 @@ pub(crate) struct Task<'t, 'm, X, M, H> {
     /// In place of the model's, if there are any.
     pub parameters: &'t [f64],
     pub goal: Goal,
+    /// The largest NIS that is taken in, by the number of components; empty: any.
+    pub limits: &'t [f64],
     /// Once it says stop, no further row is begun, on neither way.
     pub watch: Watch<'t>,
 }

@@ -9,7 +9,7 @@ use crate::filter::StepError;
 use crate::model::Observation;
 use crate::run::{Goal, Start, Task, Watch};
 use crate::smoother::History;
-use crate::{Computes, Estimates};
+use crate::{Computes, Estimates, gate};
 use core::num::NonZeroUsize;
 use core::ops::ControlFlow;
 use core::sync::atomic::{AtomicBool, AtomicUsize};
@@ -115,7 +115,14 @@ impl Stream<'_> {
         // a smoother in segments counts its rows itself
         let segments = goal == Goal::Interval && data.len() > self.hold;
         let counted = if segments { Watch { rows: None, ..watch } } else { watch };
-        let task = Task { method: method.method(), model, sensors, parameters, goal, watch: counted };
+        let limits = &match gate::limits(method.gate(), sensors.measures()) {
+            Ok(limits) => limits,
+            Err(fault) => {
+                let error = StepError { fault, time: data.start(), step: 0 };
+                return Ended { failure: Some((0, error)), ..Ended::default() };
+            }
+        };
+        let task = Task { method: method.method(), model, sensors, parameters, goal, limits, watch: counted };
         let begin = |start: Start<'_>, rows, at| course::begin::<_, _, _, X::Number>(task, start, rows, at);
         let course = Course { begin: &begin, data, prior, at, goal, measures: sensors.measures(), watch };
         if segments {

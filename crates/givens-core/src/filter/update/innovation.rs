@@ -18,7 +18,7 @@ pub struct Innovation<'a, T> {
     pub white: &'a [T],
     /// νᵀ P_zz⁻¹ ν; zero without any component.
     pub nis: T,
-    /// −½ (νᵀ P_zz⁻¹ ν + ln |P_zz| + d ln 2π).
+    /// −½ (νᵀ P_zz⁻¹ ν + ln |P_zz| + d ln 2π); zero of a measurement beyond the gate, which was not taken in.
     pub log_likelihood: T,
 }
 

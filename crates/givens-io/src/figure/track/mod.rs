@@ -131,6 +131,8 @@ pub struct NisSeries {
     pub lower: Vec<f64>,
     /// The 97.5 % quantile.
     pub upper: Vec<f64>,
+    /// Rows beyond the gate, which were not taken in: drawn as rings, and in no count. Empty: none.
+    pub gated: Vec<bool>,
     /// Where these are only some of the rows, what was counted of all.
     pub all: Option<NisCounts>,
 }
@@ -140,6 +142,8 @@ pub struct NisSeries {
 pub struct NisCounts {
     /// Rows with a value within its band, and rows with one.
     pub inside: [usize; 2],
+    /// Rows beyond the gate.
+    pub gated: usize,
     /// Rows of a block.
     pub block: usize,
     /// `[time, NIS]`, the mean over each block of rows.

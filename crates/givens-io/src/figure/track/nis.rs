@@ -1,5 +1,7 @@
 //! The panel of the normalised innovation squared.
 
+use core::iter::repeat;
+
 use super::NisSeries;
 use crate::figure::colour::Colour;
 use crate::figure::number;
@@ -20,6 +22,7 @@ struct Row {
     time: f64,
     nis: f64,
     bounds: [f64; 2],
+    gated: bool,
 }
 
 /// NIS over time against its 95 % band. The scale is linear where the band is and logarithmic above it,
@@ -31,30 +34,41 @@ pub(super) fn panel(series: &NisSeries, x: Axis) -> Panel {
         .iter()
         .zip(&series.nis)
         .zip(bounds)
-        .map(|((time, nis), (lower, upper))| Row { time: *time, nis: *nis, bounds: [*lower, *upper] })
+        .zip(series.gated.iter().copied().chain(repeat(false)))
+        .map(|(((&time, &nis), (&lower, &upper)), gated)| Row { time, nis, bounds: [lower, upper], gated })
         .filter(|r| r.time.is_finite() && r.nis.is_finite())
         .collect();
     let mut marks = Vec::new();
     for rows in bands(&rows) {
         marks.push(Mark::new("", Colour::GREEN.faded(38), Shape::Band { rows }));
     }
-    let judged: Vec<&Row> = rows.iter().filter(|r| r.bounds.iter().all(|b| b.is_finite())).collect();
+    let judged: Vec<&Row> =
+        rows.iter().filter(|r| !r.gated && r.bounds.iter().all(|b| b.is_finite())).collect();
     let inside = |r: &Row| r.nis >= r.bounds[0] && r.nis <= r.bounds[1];
     let dots = |keep: &dyn Fn(&Row) -> bool| -> Vec<[f64; 2]> {
         rows.iter().filter(|r| keep(r)).map(|r| [r.time, r.nis]).collect()
     };
-    let outside = |r: &Row| r.bounds.iter().all(|b| b.is_finite()) && !inside(r);
+    let outside = |r: &Row| !r.gated && r.bounds.iter().all(|b| b.is_finite()) && !inside(r);
     let disc = |points| Shape::Dots { points, radius: 1.7, hollow: false };
     let dense = rows.len() > DENSE;
     let colour = if dense { Colour::PALE } else { Colour::GREY };
-    marks.push(Mark::new("", colour, disc(dots(&|r| !outside(r)))));
+    marks.push(Mark::new("", colour, disc(dots(&|r| !r.gated && !outside(r)))));
     marks.push(Mark::new("", Colour::VERMILION, disc(dots(&outside))));
+    let rings = dots(&|r| r.gated);
+    if !rings.is_empty() {
+        let shape = Shape::Dots { points: rings, radius: 2.6, hollow: true };
+        marks.push(Mark::new("", Colour::VERMILION, shape));
+    }
     let mut remark = Vec::new();
     let counted = [judged.iter().filter(|r| inside(r)).count(), judged.len()];
     let [count, of] = series.all.as_ref().map_or(counted, |all| all.inside);
     if of > 0 {
         let share = 100.0 * count as f64 / of as f64;
         remark.push(format!("{}\u{2009}% within", number::short(share.round())));
+    }
+    let gated = series.all.as_ref().map_or(rows.iter().filter(|r| r.gated).count(), |all| all.gated);
+    if gated > 0 {
+        remark.push(format!("{gated} beyond the gate (rings)"));
     }
     if dense {
         // Dots that fill the panel show nothing any more; their mean does.
@@ -72,8 +86,9 @@ pub(super) fn panel(series: &NisSeries, x: Axis) -> Panel {
 
 /// The mean over each block of rows, at the middle of its time.
 fn means(rows: &[Row], block: usize) -> Vec<[f64; 2]> {
-    let mean = |rows: &[Row], f: fn(&Row) -> f64| rows.iter().map(f).sum::<f64>() / rows.len() as f64;
-    rows.chunks(block.max(1)).map(|rows| [mean(rows, |r| r.time), mean(rows, |r| r.nis)]).collect()
+    let mean = |rows: &[&Row], f: fn(&Row) -> f64| rows.iter().map(|r| f(r)).sum::<f64>() / rows.len() as f64;
+    let taken: Vec<&Row> = rows.iter().filter(|r| !r.gated).collect();
+    taken.chunks(block.max(1)).map(|rows| [mean(rows, |r| r.time), mean(rows, |r| r.nis)]).collect()
 }
 
 fn axis(rows: &[Row]) -> Axis {
@@ -127,7 +142,7 @@ mod tests {
     use super::*;
 
     fn rows(bounds: impl Fn(usize) -> [f64; 2]) -> Vec<Row> {
-        (0..100).map(|i| Row { time: i as f64, nis: 1.0, bounds: bounds(i) }).collect()
+        (0..100).map(|i| Row { time: i as f64, nis: 1.0, bounds: bounds(i), gated: false }).collect()
     }
 
     #[test]

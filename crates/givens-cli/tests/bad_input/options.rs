@@ -60,24 +60,6 @@ fn wrong_methods_and_options() {
                 &["--set precision=f16: no such choice", "one of: f64, f32"],
             ),
             (
-                "gate",
-                NONE,
-                "filter model.toml data.csv -o out.csv --set gate=1.5",
-                &["--set gate=1.5: must be a probability above 0 and below 1, such as 0.9999"],
-            ),
-            (
-                "gate_word",
-                NONE,
-                "filter model.toml data.csv -o out.csv --set gate=on",
-                &["--set gate=on: must be a number"],
-            ),
-            (
-                "gate_in_the_file",
-                ("model.toml", "kappa = 0\n", "kappa = 0\ngate = 1\n"),
-                "filter model.toml data.csv -o out.csv",
-                &["model.toml:", "gate = 1: must be a probability above 0 and below 1"],
-            ),
-            (
                 "no_value",
                 NONE,
                 "filter model.toml data.csv -o out.csv --set kappa",
@@ -118,6 +100,33 @@ fn wrong_methods_and_options() {
                 NONE,
                 "filter model.toml data.csv -o out.csv --method cdkf --set eta=0.9",
                 &["--set eta=0.9: must be"],
+            ),
+        ],
+    );
+}
+
+#[test]
+fn gates_that_are_no_probability() {
+    check(
+        "gate",
+        &[
+            (
+                "gate",
+                NONE,
+                "filter model.toml data.csv -o out.csv --set gate=1.5",
+                &["--set gate=1.5: must be a probability above 0 and below 1, such as 0.9999"],
+            ),
+            (
+                "gate_word",
+                NONE,
+                "filter model.toml data.csv -o out.csv --set gate=on",
+                &["--set gate=on: must be a number"],
+            ),
+            (
+                "gate_in_the_file",
+                ("model.toml", "kappa = 0\n", "kappa = 0\ngate = 1\n"),
+                "filter model.toml data.csv -o out.csv",
+                &["model.toml:", "gate = 1: must be a probability above 0 and below 1"],
             ),
         ],
     );

@@ -1,6 +1,7 @@
 //! Rows beyond the gate: not taken in, marked, counted and named.
 
 use super::{column, folder};
+use core::fmt::Write;
 
 /// The walk of the models, and a detection of something else in the fourth row.
 const DATA: &str = "time,z\n1,0.4\n2,2.1\n3,-0.8\n4,60\n5,1.9\n6,\n7,-1.3\n";
@@ -57,7 +58,7 @@ fn those_of_many_tracks_are_named_with_theirs_and_no_more_than_a_few() {
     for k in 0..20 {
         for track in ["a", "b"] {
             let z = if track == "b" && k % 2 == 1 { "70" } else { "0.1" };
-            table += &format!("{},{track},{z}\n", k + 1);
+            writeln!(table, "{},{track},{z}", k + 1).unwrap();
         }
     }
     folder.write("data.csv", &table);

@@ -45,7 +45,7 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
     ) -> Result<bool, StepError> {
         let (time, step) = (self.time, self.step);
         let fail = |fault| StepError { fault, time, step };
-        if !(limit >= 0.0) {
+        if limit.is_nan() || limit < 0.0 {
             let must = "must be a number, zero or more";
             return Err(fail(Fault::Option(RuleError { option: "limit", value: limit, must })));
         }

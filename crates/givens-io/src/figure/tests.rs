@@ -67,6 +67,7 @@ fn scenes() -> Vec<(&'static str, TrackFigure)> {
         lower: vec![0.0506; 100_000],
         upper: vec![7.378; 100_000],
         all: None,
+        gated: Vec::new(),
     };
     let of = |track: Track| gallery::figure(vec![track]);
     vec![

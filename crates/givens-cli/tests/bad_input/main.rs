@@ -5,6 +5,7 @@
 mod common;
 mod continuous;
 mod files;
+mod gate;
 mod models;
 mod options;
 mod tables;

@@ -127,3 +127,27 @@ fn a_huge_number_is_written_with_an_exponent() {
     let found = folder.run("filter walk.toml data.csv --method ekf").good();
     assert!(found.stderr.contains("mean NIS 1.667e299 per") && found.stderr.len() < 300, "{}", found.stderr);
 }
+
+#[test]
+fn an_innovation_too_large_to_be_squared_names_its_measure() {
+    let folder = folder("squared");
+    folder.write("walk.toml", WALK).write("data.csv", "time,z\n1,1\n2,1e200\n");
+    let found = folder.run("filter walk.toml data.csv");
+    assert_eq!(found.code, 1);
+    let words = "data.csv:3: t = 2, step 3: the filter failed: the innovation of `z`, in its standard deviations, is too \
+                 large to be squared; look for a wrong unit";
+    assert!(found.stderr.contains(words), "{}", found.stderr);
+}
+
+#[test]
+fn points_of_a_small_alpha_that_coincide_are_to_be_set_further() {
+    let folder = folder("alpha");
+    folder.write("walk.toml", WALK).write("data.csv", "time,z\n1,1e6\n2,1e6\n3,1e6\n");
+    let found = folder.run("filter walk.toml data.csv --method sr-ukf --set alpha=1e-7");
+    assert_eq!(found.code, 1);
+    assert!(
+        found.stderr.contains("set the points further from the mean (--set alpha=1), or measure"),
+        "{}",
+        found.stderr
+    );
+}

@@ -9,9 +9,13 @@ use crate::scalar::{Mask, Real};
 /// wrong by as much, at most.
 const LOST: f64 = 0.125;
 
-/// Fails if the points at m ± `reach` S e_l lose more than an eighth of their steps in a component of the state
-/// (docs/algorithms.md R7); a standard deviation of zero, or of no more than `floor`, has nothing to lose. `before` is what
-/// [`note`] has noted of the belief.
+/// A standard deviation of so many ε of its mean has a mean that rounding, half an ε at each step, does not move by
+/// much of it.
+const SPACINGS: f64 = 8.0;
+
+/// Fails if a component of the state is known to a few spacings of numbers at its mean, or if the points at m ± `reach` S e_l
+/// lose more than an eighth of their steps in it (docs/algorithms.md R7); a standard deviation of zero, or of no more than
+/// `floor`, has nothing to lose. `before` is what [`note`] has noted of the belief.
 #[inline(always)]
 pub(super) fn distinct<T: Real>(
     reach: f64,
@@ -39,7 +43,7 @@ pub(super) fn distinct<T: Real>(
         // points nearer than a standard deviation are weighted by the inverse square of their distance, and so is the
         // rounding of their images
         let blown = T::of(T::EPSILON * n as f64 * (1.0 / (reach * reach) - 1.0).max(0.0)) * m.abs();
-        let gone = (T::of(LOST) * steps).lt(lost) | (T::of(LOST) * deviation).lt(blown);
+        let gone = near(m, steps, lost, deviation) | (T::of(LOST) * deviation).lt(blown);
         health.note(gone & floor.lt(deviation), i);
     }
     match health.failed() {
@@ -51,7 +55,14 @@ pub(super) fn distinct<T: Real>(
 /// Points of a component whose standard deviation is more than this times its mean are distinct, and their steps need not
 /// be looked at: each loses at most ε (|m| + 2 |step|).
 fn far(reach: f64, n: usize, epsilon: f64) -> f64 {
-    epsilon * n as f64 * (16.0 / reach).max((1.0 / (reach * reach) - 1.0) / LOST)
+    let steps = n as f64 * (16.0 / reach).max((1.0 / (reach * reach) - 1.0) / LOST);
+    epsilon * steps.max(SPACINGS)
+}
+
+/// Whether numbers near m are too few to tell its points from it, or its mean from its neighbours.
+#[inline(always)]
+fn near<T: Real>(m: T, steps: T, lost: T, deviation: T) -> T::Mask {
+    (T::of(LOST) * steps).lt(lost) | deviation.lt(T::of(SPACINGS * T::EPSILON) * m.abs())
 }
 
 /// What is known of each component before an update, to judge by it after: n means, then n standard deviations.
@@ -67,7 +78,7 @@ pub(super) fn note<T: Real>(mean: &[T], factor: &[T], before: &mut [T]) {
 
 /// After an update. In the lanes of `exact`, where a measure had no noise, what is left of a standard deviation that it
 /// has made small may be the rounding of what it was and of its mean: that much is its floor. Elsewhere, a component that
-/// has become known better than the spacing of numbers at its mean before has a mean of rounding: nothing is changed then.
+/// has become known to a few spacings of numbers at its mean before has a mean of rounding: nothing is changed then.
 #[inline(always)]
 pub(super) fn judge<T: Real>(
     before: &[T],
@@ -89,7 +100,7 @@ pub(super) fn judge<T: Real>(
             if write {
                 *floor = raised;
             } else {
-                let vague = now.lt(T::of(T::EPSILON) * means[i].abs()) & raised.lt(now);
+                let vague = now.lt(T::of(SPACINGS * T::EPSILON) * means[i].abs()) & raised.lt(now);
                 health.note(learnt & vague, i);
             }
         }
@@ -107,7 +118,7 @@ fn deviation<T: Real>(row: &[T]) -> T {
 }
 
 /// After a prediction: only what still cannot be told from the mean may be rounding of an update. What the model itself
-/// has shrunk below the spacing of numbers at a mean that stays where it is, is as good as known: it is its own floor.
+/// has shrunk to a few spacings of numbers at a mean that stays where it is, is as good as known: it is its own floor.
 #[inline(always)]
 pub(super) fn lower<T: Real>(reach: f64, before: &[T], mean: &[T], factor: &[T], floor: &mut [T]) {
     let n = mean.len();
@@ -131,7 +142,7 @@ pub(super) fn lower<T: Real>(reach: f64, before: &[T], mean: &[T], factor: &[T],
         let (steps, lost, deviation) = steps(T::of(reach), m, &factor[i * n..=i * n + i]);
         let shrunk = deviation.lt(deviations[i]) & m.abs().le(means[i].abs() + means[i].abs());
         let kept = T::select(shrunk, floor.max(deviation), *floor);
-        *floor = T::select((T::of(LOST) * steps).lt(lost), kept, T::zero());
+        *floor = T::select(near(m, steps, lost, deviation), kept, T::zero());
     }
 }
 

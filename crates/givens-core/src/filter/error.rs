@@ -86,8 +86,8 @@ pub enum Fault {
         /// The number.
         value: f64,
     },
-    /// The points of the rule lose more than an eighth of their steps in a component of the state, beside its mean: its
-    /// standard deviation is below the spacing of numbers there.
+    /// The points of the rule lose more than an eighth of their steps in a component of the state, beside its mean, or the
+    /// mean is rounded to a part of it: its standard deviation is a few spacings of numbers there, or less.
     Indistinct {
         /// Which component, from zero.
         component: usize,
@@ -166,6 +166,7 @@ impl fmt::Display for Fault {
                          start off that point",
                     ),
                     Quantity::Measurement => f.write_str("; `update_present` takes missing components"),
+                    Quantity::Innovation => f.write_str("; the measurement is far from what was expected"),
                     _ => Ok(()),
                 }
             }
@@ -178,9 +179,9 @@ impl fmt::Display for Fault {
             ),
             Fault::Indistinct { component } => write!(
                 f,
-                "the points of component {} of the state cannot be told from its mean: its standard deviation is below \
-                 the spacing of numbers there; measure it from a nearer origin, or make its standard deviation zero if \
-                 it is known",
+                "the points of component {} of the state cannot be told from its mean: its standard deviation is a few \
+                 spacings of numbers there, or less; measure it from a nearer origin, or make its standard deviation \
+                 zero if it is known",
                 component + 1
             ),
             Fault::Backwards { to } => write!(f, "cannot predict back to t = {}", Shown(to)),

@@ -145,6 +145,12 @@ pub(super) fn time(findings: &Findings, row: &Fields, column: usize, before: Opt
         findings.wrong_help(&row.span(column), message, "write all times alike");
         return None;
     }
+    let letters = !text.bytes().any(|byte| byte.is_ascii_digit());
+    if letters && text.parse::<f64>().is_ok() {
+        let message = format!("`{}` in {} is not a finite number", short(text), row.column(column));
+        findings.wrong_help(&row.span(column), message, "every row states its `time`");
+        return None;
+    }
     if !calendar {
         let Cell::Number(seconds) = number(findings, row, column) else { return None };
         return Some(Time::Seconds(seconds));

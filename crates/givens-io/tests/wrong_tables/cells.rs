@@ -82,7 +82,12 @@ fn a_wrong_cell_is_told() {
             ),
             ("time,u_a,px\n1,x,3\n", (2, 3), "`x` in `u_a` (column 2) is not a number", ""),
             ("time,u_a,px\n,2,3\n", (2, 1), "a row has no time", "every row"),
-            ("time,u_a,px\nnan,2,3\n", (2, 1), "`nan` in `time` (column 1) is not a finite number", ""),
+            (
+                "time,u_a,px\nnan,2,3\n",
+                (2, 1),
+                "`nan` in `time` (column 1) is not a finite number",
+                "states its `time`",
+            ),
             ("time,u_a,px\nnoon,2,3\n", (2, 1), "`noon` in `time` (column 1) is not a number", ""),
             ("a,b,time,u_a,px\n\"one, two\",\"ü\",1,2,x\n", (2, 20), "`x` in `px` (column 5)", ""),
             ("time,u_a,px\n1,2,3\n\n\n2,2,x\n", (5, 5), "`x` in `px` (column 3)", ""),

@@ -149,11 +149,11 @@ impl Explain<'_> {
             }
             Fault::Indistinct { component } => {
                 let what = format!(
-                    "the std of {} is below the spacing of numbers at its mean: the points of the rule cannot be told \
+                    "the std of {} is a few spacings of numbers at its mean, or less: the points of the rule cannot be told \
                      from each other",
                     self.state(component)
                 );
-                (what, "measure it from a nearer origin, or make its std zero if it is known".to_owned())
+                (what, self.apart(choice))
             }
             Fault::NotFinite { quantity, component } => match self.not_finite(choice, quantity, component) {
                 Some((what, remedy)) => (what, remedy),

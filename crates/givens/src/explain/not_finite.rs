@@ -73,6 +73,12 @@ impl Explain<'_> {
             Quantity::Observation | Quantity::MeasurementNoise | Quantity::Measurement => {
                 (format!("the {} {measure} is not a finite number", quantity.name()), DOMAIN.to_owned())
             }
+            Quantity::Innovation => {
+                let what = format!(
+                    "the innovation of {measure}, in its standard deviations, is too large to be squared"
+                );
+                (what, "look for a wrong unit of the measure or of its noise".to_owned())
+            }
             _ => return None,
         })
     }

@@ -19,6 +19,20 @@ impl Explain<'_> {
         }
     }
 
+    /// The way out of points that cannot be told from their mean.
+    pub(super) fn apart(&self, choice: Option<&Choice>) -> String {
+        let origin = "measure it from a nearer origin, or make its std zero if it is known";
+        let near =
+            choice.is_some_and(|choice| choice.rule == RuleName::Unscented && choice.unscented.alpha < 1.0);
+        if near {
+            return format!(
+                "set the points further from the mean ({}), or {origin}",
+                self.face.set("alpha", "1")
+            );
+        }
+        origin.to_owned()
+    }
+
     /// The way out of a covariance that does not exist.
     pub(super) fn of_matrix(&self, matrix: Matrix, choice: Option<&Choice>) -> String {
         match matrix {

@@ -24,6 +24,7 @@ const STEPS: &[Step] = &[
     Step::cargo("givens-core without std", "build -p givens-core --no-default-features"),
     Step::cargo("build", "test --workspace --no-run"),
     Step::cargo("tests", "test --workspace --no-fail-fast"),
+    Step::cargo("dependencies", "xtask dependencies"),
     Step::cargo("embedded", "xtask embedded"),
     Step::cargo("instructions", "xtask instructions --where-valgrind-is"),
     Step::of("python: environment", "python3", "-m venv --clear target/python"),

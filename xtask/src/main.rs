@@ -3,6 +3,7 @@
 
 mod bench;
 mod ci;
+mod dependencies;
 mod embedded;
 mod finding;
 mod instructions;
@@ -27,6 +28,8 @@ const USAGE: &str = "usage:
   cargo xtask instructions [--bless | --where-valgrind-is]
                       counts the instructions of fixed work under valgrind, against benchmarks/instructions.toml; without
                       valgrind an error, or nothing
+  cargo xtask dependencies
+                      licences and sources of all crates, against deny.toml; where cargo-deny is installed, known weaknesses
   cargo xtask embedded
                       builds examples/embedded without std, runs it against the textbook, looks for an allocator among its
                       symbols, and tells its flash, RAM and stack";
@@ -39,6 +42,7 @@ fn main() -> ExitCode {
         ["ci"] => ci::run(&root()),
         ["reproduction", pages] => reproduction::run(&root(), Path::new(pages)),
         ["bench", options @ ..] => bench::run(&root(), options),
+        ["dependencies"] => dependencies::run(&root()),
         ["embedded"] => embedded::run(&root()),
         ["instructions"] => instructions::run(&root(), false),
         ["instructions", "--where-valgrind-is"] => !instructions::can() || instructions::run(&root(), false),

@@ -1,11 +1,12 @@
 //! What the user typed.
 
 use crate::message::Stop;
-use crate::numbers::{number, runs, seed, threads, whole};
+use crate::numbers::{number, runs, seconds, seed, threads, whole};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use core::num::NonZeroUsize;
+use core::time::Duration;
 use std::path::PathBuf;
 
 /// Nonlinear Gaussian state estimation from a model file and a table of measurements.
@@ -146,9 +147,16 @@ pub struct FilterArgs {
     /// Draw the track, the states and NIS, through rows and the times of --at; given again, to another file too
     #[arg(long = "plot", value_name = "FILE.svg|png")]
     pub plots: Vec<PathBuf>,
+    /// Judge the run by its innovations, in words: a page about their size and whiteness, outliers and gaps
+    #[arg(long, value_name = "FILE.html")]
+    pub report: Option<PathBuf>,
     /// Tracks are run on so many threads; all cores without it. The answers are the same for any
     #[arg(long, value_name = "N", value_parser = threads, allow_negative_numbers = true)]
     pub threads: Option<NonZeroUsize>,
+    /// Keep a checkpoint beside the output, every so many seconds (10 without them), and go on from the one that a run has
+    /// left that was broken off, to the same bytes
+    #[arg(long, value_name = "SECONDS", num_args = 0..=1, require_equals = true, default_missing_value = "10", value_parser = seconds, requires = "output")]
+    pub resume: Option<Duration>,
 }
 
 #[derive(Debug, ClapArgs)]
@@ -159,7 +167,7 @@ pub struct SmoothArgs {
     #[arg(long, value_name = "ROWS", value_parser = whole, allow_negative_numbers = true, conflicts_with_all = ["point", "at"])]
     pub lag: Option<usize>,
     /// Estimate the state at this one time, a line for each row from it on
-    #[arg(long, value_name = "T", allow_hyphen_values = true, conflicts_with = "at")]
+    #[arg(long, value_name = "T", allow_hyphen_values = true, conflicts_with_all = ["at", "resume"])]
     pub point: Option<String>,
 }
 

@@ -1,8 +1,9 @@
 //! The files of a run: none in two roles, and none written before all is checked.
 
+use crate::checkpoint::Checkpoint;
 use crate::message::Stop;
 use crate::stdout;
-use givens_io::Destination;
+use givens_io::{Destination, Written};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
@@ -52,6 +53,18 @@ fn place(path: &Path) -> Option<PathBuf> {
     Some(folder.canonicalize().ok()?.join(path.file_name()?))
 }
 
+/// What data are written to.
+pub trait Output: Write {
+    /// Waits until all that was written is where it will stay.
+    fn settle(&mut self) -> io::Result<Written>;
+}
+
+impl Output for Destination {
+    fn settle(&mut self) -> io::Result<Written> {
+        Self::settle(self)
+    }
+}
+
 /// Where data go: to a file that appears whole, or to standard output.
 pub enum Sink {
     Stdout,
@@ -75,8 +88,16 @@ impl Sink {
         Destination::shared(path).map(Self::File).map_err(|error| Stop::input(error.to_string()))
     }
 
+    /// Opens a file that another run may go on with, behind what one has left.
+    pub fn resumed(path: &Path, left: Written) -> Result<Self, Stop> {
+        Destination::resumed(path, left).map(Self::File).map_err(|error| {
+            let remedy = format!("remove {}, and the run begins anew", Checkpoint::path(path).display());
+            Stop::input(error.to_string()).help(remedy)
+        })
+    }
+
     /// Writes the data, and gives the file its name.
-    pub fn write(self, data: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), Stop> {
+    pub fn write(self, data: impl FnOnce(&mut dyn Output) -> io::Result<()>) -> Result<(), Stop> {
         match self {
             Self::Stdout => stdout::write(data),
             Self::File(mut file) => {

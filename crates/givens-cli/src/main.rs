@@ -2,12 +2,14 @@
 //! 1 a filter failed (what was finished is written).
 
 mod args;
+mod checkpoint;
 mod columns;
 mod commands;
 mod failure;
 mod figure;
 mod files;
 mod instants;
+mod judgement;
 mod message;
 mod method;
 mod numbers;

@@ -1,6 +1,7 @@
 //! Numbers among the arguments, and the words for those that are none.
 
 use core::num::{IntErrorKind, NonZeroUsize, ParseIntError};
+use core::time::Duration;
 
 /// A whole number.
 pub fn whole(text: &str) -> Result<usize, String> {
@@ -32,6 +33,12 @@ fn too_large(error: &ParseIntError) -> Option<&'static str> {
 /// A seed.
 pub fn seed(text: &str) -> Result<u64, String> {
     text.parse().map_err(|_| "must be a whole number from 0 to 2^64 - 1".to_owned())
+}
+
+/// A time to wait.
+pub fn seconds(text: &str) -> Result<Duration, String> {
+    let seconds = text.parse().ok().and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
+    seconds.ok_or_else(|| "must be a number of seconds, zero or above".to_owned())
 }
 
 /// A number.

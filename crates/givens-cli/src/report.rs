@@ -6,6 +6,7 @@ use givens::Estimates;
 use givens::metrics::{Accuracy, Consistency};
 use givens::scalar::Shown;
 use givens_io::Model;
+use serde::{Deserialize, Serialize};
 
 /// What the rows of a run add up to.
 pub struct Summary {
@@ -18,7 +19,7 @@ pub struct Summary {
 }
 
 /// Rows beyond the gate.
-#[derive(Default)]
+#[derive(Clone, Default, Serialize, Deserialize)]
 pub struct Gated {
     count: usize,
     /// The first of them: track, and row of it.

@@ -1,5 +1,6 @@
 //! A plan carried out: the method over every track, in packs and on all the threads it may have.
 
+use crate::checkpoint::Checkpoint;
 use crate::failure;
 use crate::figure::Shown;
 use crate::instants::Instants;
@@ -9,8 +10,9 @@ use crate::portion::portions;
 use crate::progress::Progress;
 use crate::report::{Gated, Summary};
 use core::num::NonZeroUsize;
+use core::sync::atomic::Ordering;
 use givens::batch::Batch;
-use givens::metrics::{Accuracy, Consistency};
+use givens::metrics::{Accuracy, Consistency, InnovationSums};
 use givens::registry::Choice;
 use givens::{Estimates, Goal, Outcome};
 use givens_io::Answer;
@@ -24,7 +26,12 @@ pub struct Manner<'a> {
     pub threads: Option<NonZeroUsize>,
     /// Whether the predictions, the innovations and the filtered covariances of a smoother are kept too.
     pub whole: bool,
+    /// Whether a report is made, which judges the innovations.
+    pub judged: bool,
 }
+
+/// What came of a portion of the tracks: answers, those at the times of `--at`, failures, and the innovations so far.
+pub type Done = (Vec<Answer>, Vec<Answer>, Vec<String>, Option<InnovationSums>);
 
 /// What came of a plan.
 pub struct Session {
@@ -36,16 +43,50 @@ pub struct Session {
     goals: Vec<Goal>,
     /// The answers at the times of `--at`, one for each track; empty without it.
     pub at: Vec<Answer>,
+    /// For a report, if one is made.
+    pub innovations: Option<InnovationSums>,
 }
 
 impl Session {
     /// Runs `choice` over all tracks; a track that fails does not stop the others.
     pub fn run(plan: &Plan, choice: &Choice, goals: &[Goal], manner: Manner) -> Result<Self, Stop> {
+        Self::resume(plan, choice, goals, manner, Vec::new(), None)
+    }
+
+    /// The same behind the portions that another run has done; what is `kept` is brought up to date on the way.
+    pub fn resume(
+        plan: &Plan,
+        choice: &Choice,
+        goals: &[Goal],
+        manner: Manner,
+        done: Vec<Done>,
+        mut kept: Option<&mut Checkpoint>,
+    ) -> Result<Self, Stop> {
         let rows = plan.tracks.tracks.iter().map(|track| track.rows.len()).sum();
-        let mut session =
-            Self { answers: Vec::new(), failures: Vec::new(), goals: goals.to_vec(), at: Vec::new() };
+        let mut session = Self {
+            answers: Vec::new(),
+            failures: Vec::new(),
+            goals: goals.to_vec(),
+            at: Vec::new(),
+            innovations: None,
+        };
+        session.innovations = manner.judged.then(|| InnovationSums::new(plan.model.measures()));
         Progress::new(rows).during(|count| {
+            let mut done = done.into_iter();
             for portion in portions(plan, goals) {
+                if let Some((answers, at, failures, innovations)) = done.next() {
+                    count.fetch_add(
+                        answers.iter().map(|answer| answer.estimates.len()).sum(),
+                        Ordering::Relaxed,
+                    );
+                    session.answers.extend(answers);
+                    session.at.extend(at);
+                    session.failures.extend(failures);
+                    session.innovations = innovations;
+                    continue;
+                }
+                let Self { answers, at, failures, .. } = &session;
+                let before = (answers.len(), at.len(), failures.len());
                 let batch = Batch {
                     goal: portion.goal,
                     threads: manner.threads,
@@ -55,6 +96,13 @@ impl Session {
                 let outcomes = portion.run(plan, choice, &batch, manner.at)?;
                 for (i, outcome) in portion.tracks.zip(outcomes) {
                     session.take(plan, choice, i, outcome, manner);
+                }
+                if let Some(kept) = &mut kept {
+                    let Self { answers, at, failures, .. } = &session;
+                    let done =
+                        (&answers[before.0..], &at[before.1..], &failures[before.2..], &session.innovations);
+                    kept.append(&done)
+                        .map_err(|error| Stop::failed(format!("cannot write the output: {error}")))?;
                 }
             }
             Ok::<(), Stop>(())
@@ -82,6 +130,9 @@ impl Session {
             row += ran.saturating_sub(outcome.estimates.len());
         }
         let started = begin.started && row == begin.row;
+        if let Some(sums) = &mut self.innovations {
+            sums.add(i, row, &outcome.estimates);
+        }
         let estimates = kept(outcome.estimates, manner.whole);
         self.answers.push(Answer { estimates, row, started, from_first });
     }

@@ -1,7 +1,9 @@
 //! A plan of one track carried out: its rows are written as they are finished, and memory does not grow with them.
 
+use crate::checkpoint::Checkpoint;
 use crate::failure::Failed;
 use crate::figure::Shown;
+use crate::files::Output;
 use crate::instants::Instants;
 use crate::message::{Stop, say};
 use crate::plan::Plan;
@@ -10,15 +12,19 @@ use crate::progress::Progress;
 use crate::report::{Gated, Summary};
 use crate::session::Manner;
 use crate::thin::Thinned;
+use core::num::NonZeroUsize;
 use core::ops::ControlFlow;
 use givens::batch::Track;
-use givens::metrics::{AccuracySums, ConsistencySums};
-use givens::{Data, Estimates, Finished, Goal, Stream};
-use givens_io::{AnswerWriter, Dynamics, Format, Part};
+use givens::metrics::{AccuracySums, ConsistencySums, InnovationSums};
+use givens::{Data, Estimates, Finished, Goal, Mark, Sink, Stream};
+use givens_io::{AnswerWriter, Dynamics, Format, Part, Tracks, Written};
+use serde::{Deserialize, Serialize};
 use std::io::{self, ErrorKind, Write};
 
 /// The records of a smoother may take so much memory; where they would take more, it goes over its rows three times.
 const MEMORY: usize = 128 << 20;
+/// A run that may be broken off holds so many rows at once, and a smoother as many for each thread: it begins again with them.
+const KEPT: usize = 1024;
 
 /// A run over one track.
 pub struct Streaming<'p> {
@@ -27,22 +33,32 @@ pub struct Streaming<'p> {
     at: Option<&'p Instants>,
     data: Data,
     writer: AnswerWriter<'p>,
-    /// What figures are drawn through, if any are.
-    thinned: Option<(Thinned, Estimates)>,
-    /// What stands in the output so far: rows of the table, and times of `--at`.
-    written: (bool, usize),
     sums: Sums,
-    accuracy: Option<AccuracySums>,
     failure: Option<String>,
 }
 
-/// Of all rows.
-#[derive(Default)]
+/// Of all rows so far.
+#[derive(Clone, Default, Serialize, Deserialize)]
 struct Sums {
+    /// What stands in the output: whether any row of the table, and how many times of `--at`.
+    written: (bool, usize),
+    /// What figures are drawn through, if any are.
+    thinned: Option<(Thinned, Estimates)>,
+    accuracy: Option<AccuracySums>,
     rows: usize,
     log_likelihood: f64,
     consistency: ConsistencySums,
+    /// For a report, if one is made.
+    innovations: Option<InnovationSums>,
     gated: Gated,
+}
+
+/// What a checkpoint keeps: the output, what was found, and how far the stream has come.
+#[derive(Serialize, Deserialize)]
+pub struct Stand {
+    pub output: Written,
+    sums: Sums,
+    marks: Vec<Mark>,
 }
 
 impl<'p> Streaming<'p> {
@@ -61,63 +77,57 @@ impl<'p> Streaming<'p> {
         let (smoothed, threads) = (goal != Goal::Filter, manner.threads);
         let (model, tracks, gated) = (&plan.model, &plan.tracks, plan.choice.gate.is_some());
         let writer = AnswerWriter { format, model, tracks, smoothed, gated, threads };
-        let (written, sums) = ((false, 0), Sums::default());
-        Ok(Self { plan, goal, at: manner.at, data, writer, thinned, written, sums, accuracy, failure: None })
+        let innovations = manner.judged.then(|| InnovationSums::new(plan.model.measures()));
+        let sums = Sums { thinned, accuracy, innovations, ..Sums::default() };
+        Ok(Self { plan, goal, at: manner.at, data, writer, sums, failure: None })
     }
 
-    /// Runs, and writes the answers.
+    /// Runs, from where another run stands if one does, and writes the answers; what is `kept` is brought up to date on the way.
     ///
     /// # Errors
     /// What the writer says. If nobody reads any more the run goes on, for what is told and drawn of it.
-    pub fn run(&mut self, out: &mut dyn Write) -> io::Result<()> {
+    pub fn run(
+        &mut self,
+        out: &mut dyn Output,
+        from: Option<Stand>,
+        kept: Option<&mut Checkpoint>,
+    ) -> io::Result<()> {
         let plan = self.plan;
         let (n, d) = (plan.model.states.len(), plan.model.measures());
         let data = core::mem::replace(&mut self.data, Data::new(0));
-        let bytes = Stream::bytes_per_row(self.goal, n, d);
-        let hold = (MEMORY / bytes).max(64);
-        if self.goal == Goal::Interval && data.len() > hold {
-            say(&format!(
-                "{} rows are smoothed in segments, three times over the data: at once they would take {} of memory",
-                data.len(),
-                size(bytes.saturating_mul(data.len()))
-            ));
-        }
+        let hold = self.hold(n, d, data.len(), kept.is_some());
         let at = self.at.map_or(Vec::new(), |at| at.of(0));
         let tracks = self.at.map(|at| at.tracks(plan));
-        AnswerWriter { tracks: tracks.as_ref().unwrap_or(&plan.tracks), ..self.writer }.header(out)?;
+        let mut marks = Vec::new();
+        match from {
+            Some(stand) => (self.sums, marks) = (stand.sums, stand.marks),
+            None => {
+                AnswerWriter { tracks: tracks.as_ref().unwrap_or(&plan.tracks), ..self.writer }.header(out)?
+            }
+        }
         let (model, sensors, prior) = (&plan.model, &plan.model.observation, &plan.beginnings[0].prior);
-        let mut done = Ok(());
-        let mut finished_rows = 0;
+        let (goal, threads) = (self.goal, self.writer.threads);
+        let mut desk =
+            Desk { run: self, out, tracks: tracks.as_ref(), kept, marks: marks.clone(), done: Ok(()) };
         let ended = Progress::new(data.len()).during(|count| {
-            let threads = self.writer.threads;
-            let by = Stream { goal: self.goal, hold, threads, cancel: None, rows: Some(count) };
-            let mut sink = |finished: Finished| {
-                finished_rows += finished.estimates.len();
-                self.add(&finished);
-                if done.is_ok() {
-                    done = self.write(out, &finished, tracks.as_ref());
-                }
-                match &done {
-                    Err(error) if error.kind() != ErrorKind::BrokenPipe => ControlFlow::Break(()),
-                    _ => ControlFlow::Continue(()),
-                }
-            };
+            let by = Stream { goal, hold, threads, cancel: None, rows: Some(count), from: &marks };
             match &model.dynamics {
                 Dynamics::Discrete(model) => {
                     let track = Track { at: &at, ..Track::new(model, sensors, &data, prior) };
-                    plan.choice.stream(&track, &by, &mut sink)
+                    plan.choice.stream(&track, &by, &mut desk)
                 }
                 Dynamics::Continuous(model) => {
                     let track = Track { at: &at, ..Track::new(model, sensors, &data, prior) };
-                    plan.choice.stream_continuous(&track, &by, &mut sink)
+                    plan.choice.stream_continuous(&track, &by, &mut desk)
                 }
             }
         });
+        let mut done = desk.done;
         if let Some((row, error)) = &ended.failure {
-            let failed = Failed { row: *row, error, set_out: &ended.failed_at, finished: finished_rows };
+            let failed = Failed { row: *row, error, set_out: &ended.failed_at, finished: self.sums.rows };
             self.failure = Some(failed.told(plan, &plan.choice, 0, self.goal));
         }
-        if finished_rows == 0 && done.is_ok() {
+        if self.sums.rows == 0 && done.is_ok() {
             // the rows before the belief holds have their empty lines all the same
             let nothing = Estimates::default();
             done =
@@ -126,13 +136,26 @@ impl<'p> Streaming<'p> {
         done.and_then(|()| out.flush())
     }
 
-    fn write(
-        &mut self,
-        out: &mut dyn Write,
-        finished: &Finished,
-        at: Option<&givens_io::Tracks>,
-    ) -> io::Result<()> {
-        let (begun, times) = self.written;
+    /// How many of its rows a run of n states and d measures holds at once.
+    fn hold(&self, n: usize, d: usize, rows: usize, is_kept: bool) -> usize {
+        let bytes = Stream::bytes_per_row(self.goal, n, d);
+        let hold = (MEMORY / bytes).max(64);
+        if self.goal == Goal::Interval && rows > hold {
+            say(&format!(
+                "{rows} rows are smoothed in segments, three times over the data: at once they would take {} of memory",
+                size(bytes.saturating_mul(rows))
+            ));
+        }
+        let cores = || std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
+        let together = match self.goal {
+            Goal::Interval => KEPT * (1 + self.writer.threads.map_or_else(cores, NonZeroUsize::get)),
+            _ => KEPT,
+        };
+        if is_kept { hold.min(together) } else { hold }
+    }
+
+    fn write(&mut self, out: &mut dyn Write, finished: &Finished, at: Option<&Tracks>) -> io::Result<()> {
+        let (begun, times) = self.sums.written;
         if let Some(tracks) = at {
             let part = Part {
                 track: &tracks.tracks[0],
@@ -141,14 +164,14 @@ impl<'p> Streaming<'p> {
                 started: false,
                 estimates: finished.at,
             };
-            self.written.1 += finished.at.len();
+            self.sums.written.1 += finished.at.len();
             return AnswerWriter { tracks, ..self.writer }.rows(out, &[part]);
         }
         let begin = &self.plan.beginnings[0];
         let row = begin.row + finished.first;
         let is_point = matches!(self.goal, Goal::Point(_));
         let from = if begun || is_point { row } else { 0 };
-        self.written.0 |= !finished.estimates.is_empty();
+        self.sums.written.0 |= !finished.estimates.is_empty();
         let started = begin.started && row == begin.row;
         let track = &self.plan.tracks.tracks[0];
         self.writer.rows(out, &[Part { track, from, row, started, estimates: finished.estimates }])
@@ -160,12 +183,15 @@ impl<'p> Streaming<'p> {
         self.sums.rows += est.len();
         est.log_likelihood.iter().for_each(|x| self.sums.log_likelihood += x);
         self.sums.consistency.add(est);
+        if let Some(sums) = &mut self.sums.innovations {
+            sums.add(0, self.plan.beginnings[0].row + first, est);
+        }
         self.sums.gated.add(0, self.plan.beginnings[0].row + first, est);
         let truth = self.plan.truth_at(0, self.goal, est.time.iter().copied());
-        if let (Some(sums), Some(truth)) = (&mut self.accuracy, &truth) {
+        if let (Some(sums), Some(truth)) = (&mut self.sums.accuracy, &truth) {
             sums.add(&est.mean, &est.cov, &truth.states);
         }
-        if let Some((rows, times)) = &mut self.thinned {
+        if let Some((rows, times)) = &mut self.sums.thinned {
             rows.add(est, truth.as_ref());
             for row in 0..at.len() {
                 let kept = times.push(at, row);
@@ -176,14 +202,20 @@ impl<'p> Streaming<'p> {
 
     /// What the rows add up to.
     pub fn summary(&mut self) -> Summary {
-        let Sums { rows, log_likelihood, consistency, gated } = core::mem::take(&mut self.sums);
-        let accuracy = self.accuracy.as_ref().map(AccuracySums::accuracy);
+        let Sums { rows, log_likelihood, consistency, ref accuracy, .. } = self.sums;
+        let accuracy = accuracy.as_ref().map(AccuracySums::accuracy);
+        let gated = core::mem::take(&mut self.sums.gated);
         Summary { rows, log_likelihood, consistency: consistency.consistency(), gated, accuracy }
+    }
+
+    /// What a report says of its innovations, if one is made.
+    pub fn innovations(&self) -> Option<&InnovationSums> {
+        self.sums.innovations.as_ref()
     }
 
     /// What a figure of it shows.
     pub fn shown(&self) -> Option<Shown<'_>> {
-        let (rows, at) = self.thinned.as_ref()?;
+        let (rows, at) = self.sums.thinned.as_ref()?;
         let (goal, at) = (self.goal, self.at.map(|_| at));
         Some(Shown { goal, rows: &rows.kept, at, counts: rows.counts() })
     }
@@ -191,6 +223,41 @@ impl<'p> Streaming<'p> {
     /// The failure that ended it, in words.
     pub fn failure(&self) -> Option<&String> {
         self.failure.as_ref()
+    }
+}
+
+/// Where the rows of a run are taken in.
+struct Desk<'d, 'p> {
+    run: &'d mut Streaming<'p>,
+    out: &'d mut dyn Output,
+    tracks: Option<&'d Tracks>,
+    kept: Option<&'d mut Checkpoint>,
+    marks: Vec<Mark>,
+    done: io::Result<()>,
+}
+
+impl Sink for Desk<'_, '_> {
+    fn take(&mut self, finished: Finished) -> ControlFlow<()> {
+        self.run.add(&finished);
+        if self.done.is_ok() {
+            self.done = self.run.write(self.out, &finished, self.tracks);
+        }
+        match &self.done {
+            Err(error) if error.kind() != ErrorKind::BrokenPipe => ControlFlow::Break(()),
+            _ => ControlFlow::Continue(()),
+        }
+    }
+
+    fn mark(&mut self, mark: Mark) {
+        let Some(kept) = &mut self.kept else { return };
+        if mark.is_enough() {
+            self.marks.clear();
+        }
+        self.marks.push(mark);
+        if self.done.is_ok() && kept.is_due() {
+            let (sums, marks) = (self.run.sums.clone(), self.marks.clone());
+            self.done = self.out.settle().and_then(|output| kept.replace(&Stand { output, sums, marks }));
+        }
     }
 }
 

@@ -4,6 +4,7 @@ use core::ops::Range;
 use givens::Estimates;
 use givens::metrics::{Truth, chi_squared_band};
 use givens_io::figure::NisCounts;
+use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
 
 /// Of a run of up to so many rows, all are drawn.
@@ -14,7 +15,7 @@ const STRETCHES: usize = 1024;
 const BLOCKS: usize = 150;
 
 /// What was counted of all rows.
-#[derive(Default)]
+#[derive(Clone, Default, Serialize, Deserialize)]
 pub struct Counts {
     /// Of each state the rows whose error is within 2σ, and those that have one.
     pub states: Vec<[usize; 2]>,
@@ -22,6 +23,7 @@ pub struct Counts {
 }
 
 /// Rows that are kept, and what was counted of all.
+#[derive(Clone, Serialize, Deserialize)]
 pub struct Thinned {
     /// How many there will be.
     rows: usize,

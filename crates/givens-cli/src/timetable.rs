@@ -36,7 +36,13 @@ pub fn regular(model: &Model, args: &SimulateArgs) -> Result<Tracks, Stop> {
             track.rows.push(Row { line: index + 2, index, time, time_text, sensor, z, u: vec![] });
         }
     }
-    Ok(Tracks { tracks: vec![track], ignored: vec![], has_track_id: false, has_sensor: apart })
+    Ok(Tracks {
+        tracks: vec![track],
+        ignored: vec![],
+        has_track_id: false,
+        has_sensor: apart,
+        fingerprint: String::new(),
+    })
 }
 
 /// Refuses more rows than fit into memory.

@@ -11,6 +11,8 @@ pub struct Truth {
     times: Vec<f64>,
     /// The rows of the truth that are of each track, in order of time.
     pub rows: Vec<Vec<usize>>,
+    /// Tells its text from others.
+    pub fingerprint: String,
 }
 
 impl Truth {
@@ -24,7 +26,7 @@ impl Truth {
         for (row, &track) in found.tracks.iter().enumerate() {
             rows[track].push(row);
         }
-        let truth = Self { states: found.states, times: found.times, rows };
+        let truth = Self { states: found.states, times: found.times, rows, fingerprint: found.fingerprint };
         let meets = |(i, track): (usize, &Track)| {
             let mut times = track.rows.iter().map(|row| row.time).chain([track.start]);
             times.any(|t| truth.row(i, t).is_some())

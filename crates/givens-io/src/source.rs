@@ -51,6 +51,11 @@ impl Source {
         }
     }
 
+    /// Tells it from other texts: its length and its sum.
+    pub fn fingerprint(&self) -> String {
+        format!("{} bytes, sum {:08x}", self.text.len(), crc32fast::hash(self.text.as_bytes()))
+    }
+
     /// The line, from zero, in which a byte stands.
     pub fn line_of(&self, byte: usize) -> usize {
         self.lines.partition_point(|&start| start <= byte).saturating_sub(1)

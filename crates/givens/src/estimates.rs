@@ -4,6 +4,7 @@
 ///
 /// All numbers of a kind stand in one array, row after row; the accessors cut out one row.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Estimates {
     pub(crate) states: usize,
     pub(crate) measures: usize,

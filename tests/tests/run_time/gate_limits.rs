@@ -5,7 +5,7 @@ use core::ops::ControlFlow;
 use givens::batch::{Batch, Track};
 use givens::filter::{Fault, StepError};
 use givens::registry::{Choice, Setting, resolve};
-use givens::{Draws, Estimates, Goal, Stream};
+use givens::{Draws, Estimates, Finished, Goal, Stream};
 use givens_tests::choices::choices;
 use givens_tests::models::{Normals, Problem};
 
@@ -91,7 +91,7 @@ fn what_is_no_probability_is_refused_with_its_range() {
         );
         let outcomes = choice.run_batch(&[track, track], &Batch::default());
         assert!(outcomes.into_iter().all(|outcome| first(outcome.unwrap().failure)), "{gate}");
-        let ended = choice.stream(&track, &Stream::default(), &mut |_| ControlFlow::Continue(()));
+        let ended = choice.stream(&track, &Stream::default(), &mut |_: Finished| ControlFlow::Continue(()));
         assert!(first(ended.failure), "{gate}");
         assert!(choice.start(model, sensor, 0.0, prior).is_err_and(|error| wrong(error.fault)), "{gate}");
         let draws = Draws { count: 1, seed: 1, track: 0 };

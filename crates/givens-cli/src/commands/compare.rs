@@ -107,7 +107,7 @@ fn line(
     gated: bool,
     threads: Option<NonZeroUsize>,
 ) -> Result<(Vec<String>, Vec<String>), Stop> {
-    let manner = Manner { at: None, threads, whole: false };
+    let manner = Manner { at: None, threads, whole: false, judged: false };
     let run = |goal: Goal| Session::run(plan, choice, &vec![goal; plan.tracks.tracks.len()], manner);
     let begun = Instant::now();
     let filtered = run(Goal::Filter)?;

@@ -157,6 +157,7 @@ mod owned {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     #[derive(Clone, Debug, PartialEq)]
+    #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
     pub struct Snapshot<T = f64> {
         /// The time at which the belief holds.
         pub time: f64,

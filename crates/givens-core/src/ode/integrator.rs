@@ -95,6 +95,7 @@ impl Default for Integrator {
 
 /// What integrations have cost so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Work {
     /// Evaluations of the derivative.
     pub calls: usize,

@@ -128,6 +128,11 @@ impl Model {
         read::model(&self.source, parameters)
     }
 
+    /// Tells the text of the model file from others.
+    pub fn fingerprint(&self) -> String {
+        self.source.fingerprint()
+    }
+
     /// Number of measures of all sensors.
     pub fn measures(&self) -> usize {
         self.sensors.last().map_or(0, |sensor| sensor.measures.end)

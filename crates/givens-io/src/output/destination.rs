@@ -1,5 +1,7 @@
 //! A file that appears whole or not at all.
 
+use super::written::{Written, behind};
+use crc32fast::Hasher;
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -14,6 +16,8 @@ pub struct Destination {
     partial: Option<PathBuf>,
     /// Open from the first byte on; a device from the beginning.
     file: Option<BufWriter<File>>,
+    /// Whether what was written stays if it is not finished: then it is counted and summed.
+    kept: Option<(u64, Hasher)>,
 }
 
 /// Why a file could not be written.
@@ -74,26 +78,37 @@ impl Destination {
         Self::under(path.as_ref(), &format!(".{}.partial", std::process::id()))
     }
 
+    /// The same for a run that may be broken off and gone on with: `PATH.partial` stays if it is not finished, and is written
+    /// behind what another run has left there.
+    ///
+    /// # Errors
+    /// A path that cannot be written, or that is no file; a `PATH.partial` that does not begin with what was `left`.
+    pub fn resumed(path: impl AsRef<Path>, left: Written) -> Result<Self, DestinationError> {
+        let path = path.as_ref().to_owned();
+        match behind(&path, left) {
+            Ok((target, partial, file, sum)) => {
+                let (partial, file) = (Some(partial), Some(BufWriter::new(file)));
+                Ok(Self { path, target, partial, file, kept: Some((left.bytes(), sum)) })
+            }
+            Err(source) => Err(DestinationError { path, source }),
+        }
+    }
+
     fn under(path: &Path, ending: &str) -> Result<Self, DestinationError> {
         let path = path.to_owned();
         match Self::open(&path, ending) {
-            Ok((target, partial, file)) => Ok(Self { path, target, partial, file: file.map(BufWriter::new) }),
+            Ok((target, partial, file)) => {
+                Ok(Self { path, target, partial, file: file.map(BufWriter::new), kept: None })
+            }
             Err(source) => Err(DestinationError { path, source }),
         }
     }
 
     fn open(path: &Path, ending: &str) -> io::Result<(PathBuf, Option<PathBuf>, Option<File>)> {
-        let found = path.metadata().ok();
-        if found.as_ref().is_some_and(fs::Metadata::is_dir) {
-            return Err(io::Error::new(io::ErrorKind::IsADirectory, "it is a folder"));
-        }
-        if found.as_ref().is_some_and(|found| !found.is_file()) {
-            return Ok((path.to_owned(), None, Some(OpenOptions::new().write(true).open(path)?)));
-        }
-        let target = if found.is_some() { path.canonicalize()? } else { path.to_owned() };
-        let mut partial = target.clone().into_os_string();
-        partial.push(ending);
-        let partial = PathBuf::from(partial);
+        let (target, partial) = locate(path, ending)?;
+        let Some(partial) = partial else {
+            return Ok((target, None, Some(OpenOptions::new().write(true).open(path)?)));
+        };
         drop(File::create(&partial)?);
         // a run that is killed before it writes leaves nothing
         fs::remove_file(&partial)?;
@@ -115,6 +130,17 @@ impl Destination {
         &self.path
     }
 
+    /// Waits until all that was written is on the disk, for [`resumed`](Self::resumed) to go on behind it.
+    ///
+    /// # Errors
+    /// What the system says.
+    pub fn settle(&mut self) -> io::Result<Written> {
+        let file = self.opened()?;
+        file.flush()?;
+        file.get_ref().sync_data()?;
+        Ok(self.kept.as_ref().map_or(Written::default(), |(bytes, sum)| Written::of(*bytes, sum)))
+    }
+
     /// Gives the finished file its name.
     ///
     /// # Errors
@@ -131,9 +157,29 @@ impl Destination {
     }
 }
 
+/// What a path leads to, and where it is written before; none for a device.
+pub(super) fn locate(path: &Path, ending: &str) -> io::Result<(PathBuf, Option<PathBuf>)> {
+    let found = path.metadata().ok();
+    if found.as_ref().is_some_and(fs::Metadata::is_dir) {
+        return Err(io::Error::new(io::ErrorKind::IsADirectory, "it is a folder"));
+    }
+    if found.as_ref().is_some_and(|found| !found.is_file()) {
+        return Ok((path.to_owned(), None));
+    }
+    let target = if found.is_some() { path.canonicalize()? } else { path.to_owned() };
+    let mut partial = target.clone().into_os_string();
+    partial.push(ending);
+    Ok((target, Some(PathBuf::from(partial))))
+}
+
 impl Write for Destination {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.opened()?.write(bytes)
+        let written = self.opened()?.write(bytes)?;
+        if let Some((count, sum)) = &mut self.kept {
+            *count += written as u64;
+            sum.update(&bytes[..written]);
+        }
+        Ok(written)
     }
     fn flush(&mut self) -> io::Result<()> {
         self.file.as_mut().map_or(Ok(()), Write::flush)
@@ -143,7 +189,7 @@ impl Write for Destination {
 impl Drop for Destination {
     /// A file that was not finished leaves nothing behind.
     fn drop(&mut self) {
-        if let (Some(_), Some(partial)) = (self.file.take(), &self.partial) {
+        if let (Some(_), Some(partial), None) = (self.file.take(), &self.partial, &self.kept) {
             let _ = fs::remove_file(partial);
         }
     }
@@ -151,6 +197,7 @@ impl Drop for Destination {
 
 #[cfg(test)]
 mod tests {
+    use super::super::Written;
     use super::Destination;
     use std::fs;
     use std::io::Write;
@@ -172,6 +219,36 @@ mod tests {
         Destination::create(&path).unwrap().write_all(b"other").unwrap();
         assert_eq!(fs::read(&path).unwrap(), b"x");
         assert!(!partial.exists());
+        fs::remove_dir_all(&folder).unwrap();
+    }
+
+    #[test]
+    fn a_file_that_may_be_gone_on_with_stays() {
+        let folder = std::env::temp_dir().join(format!("givens-resumed-{}", std::process::id()));
+        fs::create_dir_all(&folder).unwrap();
+        let (path, partial) = (folder.join("out.csv"), folder.join("out.csv.partial"));
+        let mut file = Destination::resumed(&path, Written::default()).unwrap();
+        file.write_all(b"abc").unwrap();
+        let left = file.settle().unwrap();
+        file.write_all(b"de").unwrap();
+        drop(file);
+        assert_eq!(fs::read(&partial).unwrap(), b"abcde");
+        let mut file = Destination::resumed(&path, left).unwrap();
+        file.write_all(b"f").unwrap();
+        let more = file.settle().unwrap();
+        drop(file);
+        let mut file = Destination::resumed(&path, more).unwrap();
+        file.write_all(b"g").unwrap();
+        file.finish().unwrap();
+        assert_eq!((fs::read(&path).unwrap().as_slice(), partial.exists()), (&b"abcfg"[..], false));
+        for other in ["ab", "abd", ""] {
+            fs::write(&partial, other).unwrap();
+            let error = Destination::resumed(&path, left).unwrap_err().to_string();
+            assert!(error.ends_with("out.csv.partial is not what its checkpoint was made beside"), "{error}");
+            assert_eq!(fs::read(&partial).unwrap(), other.as_bytes());
+        }
+        let error = Destination::resumed("/dev/null", left).unwrap_err().to_string();
+        assert!(error.ends_with("it is no file"), "{error}");
         fs::remove_dir_all(&folder).unwrap();
     }
 

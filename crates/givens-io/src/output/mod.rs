@@ -5,6 +5,7 @@ mod csv;
 mod destination;
 mod jsonl;
 mod simulated;
+mod written;
 
 use core::num::NonZeroUsize;
 use givens::Estimates;
@@ -13,6 +14,7 @@ use std::io::{self, Write};
 
 pub use destination::{Destination, DestinationError, make_folder, read_back};
 pub use simulated::{Drawn, write_measurements, write_states};
+pub use written::Written;
 
 use crate::model_file::Model;
 use crate::table::{Row, Track, Tracks};
@@ -28,7 +30,7 @@ pub enum Format {
 }
 
 /// The answer for one track.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Answer {
     /// The estimates of the finished rows.
     pub estimates: Estimates,

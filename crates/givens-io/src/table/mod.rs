@@ -27,6 +27,8 @@ pub struct Tracks {
     pub has_track_id: bool,
     /// Whether the table has the column `sensor`.
     pub has_sensor: bool,
+    /// Tells the text of the table from others.
+    pub fingerprint: String,
 }
 
 /// One track: rows in time order.

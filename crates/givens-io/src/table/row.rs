@@ -59,7 +59,8 @@ pub(super) fn tracks(findings: &Findings, model: &Model, measured: bool) -> Opti
         tracks.push(check::track(findings, model, id, rows, columns.time)?);
     }
     let (has_track_id, has_sensor) = (columns.track.is_some(), columns.sensor.is_some());
-    Some(Tracks { tracks, ignored: columns.ignored, has_track_id, has_sensor })
+    let fingerprint = findings.source.fingerprint();
+    Some(Tracks { tracks, ignored: columns.ignored, has_track_id, has_sensor, fingerprint })
 }
 
 /// The cell of `track_id`.

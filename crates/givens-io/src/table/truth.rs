@@ -27,6 +27,8 @@ pub struct Truth {
     pub lines: Vec<usize>,
     /// Columns that are neither time nor states.
     pub ignored: Vec<String>,
+    /// Tells the text of the table from others.
+    pub fingerprint: String,
 }
 
 /// Reads true states from a CSV file with the columns `time`, states of the model, and `track_id` if `tracks` has
@@ -61,6 +63,7 @@ fn truth(findings: &Findings, model: &Model, tracks: &Tracks) -> Option<Truth> {
     let ignored =
         sheet.header.iter().enumerate().filter(|(column, _)| !known(*column)).map(|(_, name)| name.clone());
     let mut truth = Truth {
+        fingerprint: findings.source.fingerprint(),
         times: Vec::new(),
         tracks: Vec::new(),
         states: columns.iter().map(|column| column.map(|_| Vec::new())).collect(),

@@ -70,6 +70,7 @@ impl Accuracy {
 
 /// The errors of a run whose rows come a few at a time.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct AccuracySums {
     /// Of each state the sum of squares, the rows within 2σ, all rows.
     states: Vec<(f64, usize, usize)>,

@@ -18,6 +18,7 @@ pub struct Consistency {
 
 /// The same of rows that come in portions.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ConsistencySums {
     nis: f64,
     dof: usize,

@@ -13,7 +13,7 @@ impl Choice {
         &self,
         track: &Track<M, H>,
         stream: &Stream,
-        sink: &mut Sink,
+        sink: &mut dyn Sink,
     ) -> Ended {
         let (model, sensors) = (&AnyTransition::new(track.model), &AnyObservation::new(track.sensors));
         self.stream_any(Along { track: &behind(track, model, sensors), stream, sink })
@@ -24,7 +24,7 @@ impl Choice {
         &self,
         track: &Track<M, H>,
         stream: &Stream,
-        sink: &mut Sink,
+        sink: &mut dyn Sink,
     ) -> Ended {
         let (model, sensors) = (&AnySde::new(track.model), &AnyObservation::new(track.sensors));
         self.stream_any_continuous(Along { track: &behind(track, model, sensors), stream, sink })
@@ -50,13 +50,13 @@ fn behind<'a, M, H, D, E>(track: &Track<'a, M, H>, model: &'a D, sensors: &'a E)
 }
 
 /// What a method is streamed along.
-struct Along<'s, 't, 'k, M> {
+struct Along<'s, 't, M> {
     track: &'s Track<'t, M, AnyObservation<'t>>,
     stream: &'s Stream<'s>,
-    sink: &'s mut Sink<'k>,
+    sink: &'s mut dyn Sink,
 }
 
-impl<M> Along<'_, '_, '_, M> {
+impl<M> Along<'_, '_, M> {
     /// How a method ends that is not for this model.
     fn refused(&self) -> impl FnOnce(Fault) -> Ended + use<M> {
         let time = self.track.data.start();
@@ -64,7 +64,7 @@ impl<M> Along<'_, '_, '_, M> {
     }
 }
 
-impl<M: Sync> Job<M> for Along<'_, '_, '_, M> {
+impl<M: Sync> Job<M> for Along<'_, '_, M> {
     type Done = Ended;
     fn with<X: Computing<M>>(self, method: X) -> Ended {
         self.stream.run(method, self.track, self.sink)

@@ -4,8 +4,9 @@ use crate::filter::Belief;
 use crate::scalar::Real;
 use crate::smoother::Smoothed;
 
-/// A [`Smoothed`] belief in memory of its own.
-#[derive(Clone, Debug)]
+/// A [`Smoothed`] belief in memory of its own: where a smoother stands on its way back.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Crossing<T> {
     mean: Vec<T>,
     factor: Vec<T>,

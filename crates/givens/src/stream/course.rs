@@ -56,6 +56,15 @@ pub(super) struct Course<'s, 't> {
 }
 
 impl Course<'_, '_> {
+    /// How many of the wanted times lie before this row; before the first row, none do.
+    pub fn before(&self, row: usize) -> usize {
+        if row == 0 {
+            return 0;
+        }
+        let time = self.data.row(row).map_or(f64::INFINITY, |row| row.time);
+        self.at.partition_point(|&t| t < time)
+    }
+
     pub fn blank(&self) -> Outcome {
         Outcome::new(self.prior.mean().len(), self.measures, self.goal)
     }

@@ -1,15 +1,20 @@
 //! Once over the data: filter, fixed lag, fixed point; and a fixed interval whose rows may all be held.
 
-use super::course::Course;
-use super::{Ended, Finished, Sink};
+use super::course::{Course, Recording};
+use super::mark::{Kind, Mark, Stand};
+use super::{Ended, Finished, Sink, Stream};
+use crate::Estimates;
+use crate::filter::StepError;
 use crate::run::{Goal, Outcome, Start};
+use core::ops::ControlFlow;
+use std::collections::VecDeque;
 
 /// Rows that are handed over together, if so many may be held.
 const TOGETHER: usize = 8192;
 
 /// Runs over the rows, and hands them to `sink`.
-pub(super) fn stream(course: &Course, hold: usize, sink: &mut Sink) -> Ended {
-    let (data, goal, watch) = (course.data, course.goal, course.watch);
+pub(super) fn stream(course: &Course, by: &Stream, sink: &mut dyn Sink) -> Ended {
+    let (data, goal, watch, hold) = (course.data, course.goal, course.watch, by.hold);
     let (rows, mut outcome) = (data.len(), course.blank());
     // what a later row may change stays; the last row, for a time that is its own
     let (together, keep) = match goal {
@@ -17,32 +22,97 @@ pub(super) fn stream(course: &Course, hold: usize, sink: &mut Sink) -> Ended {
         Goal::Lag(lag) => (hold.min(TOGETHER), lag.max(1)),
         Goal::Filter | Goal::Point(_) => (hold.min(TOGETHER), 1),
     };
-    let wanted = if matches!(goal, Goal::Filter | Goal::Interval) { course.at } else { &[] };
-    let mut recorder = match (course.begin)(Start::Prior(data.start(), course.prior), rows, wanted) {
-        Ok(recorder) => recorder,
+    let (mut recorder, mut next, mut given) = match begin(course, by.from, &mut outcome) {
+        Ok(begun) => begun,
         Err(error) => return Ended { failure: Some((0, error)), ..Ended::default() },
     };
-    let mut next = 0;
+    let markable = matches!(goal, Goal::Filter | Goal::Lag(_));
+    // where portions began: the first of them before the rows that were not handed over yet
+    let mut stands: VecDeque<Stand> = VecDeque::new();
     while next < rows && outcome.failure.is_none() && !watch.stopped() {
         let end = (next + together.max(1)).min(rows);
+        if markable {
+            let (row, log_likelihood) = (next, outcome.log_likelihood);
+            stands.push_back(Stand { row, filter: recorder.snapshot(), log_likelihood });
+        }
         recorder.forward(data, next..end, &mut outcome);
         next = end;
         if next < rows && outcome.failure.is_none() {
             let first = recorder.finished().saturating_sub(outcome.estimates.len());
-            let (estimates, at) = &recorder.cut(&mut outcome, keep);
-            if sink(Finished { first, estimates, at }).is_break() {
+            let (estimates, at) = recorder.cut(&mut outcome, keep);
+            if given.hand(first, estimates, at, sink).is_break() {
                 return Ended::of(outcome);
+            }
+            while stands.get(1).is_some_and(|next| next.row <= given.rows) {
+                stands.pop_front();
+            }
+            if let Some(stand) = stands.front().cloned() {
+                sink.mark(Mark(Kind::Rows { stand, handed: given.rows, at: given.at }));
             }
         }
     }
     recorder.beyond(&mut outcome);
-    let first = recorder.finished().saturating_sub(outcome.estimates.len());
+    // a recorder that went on, and failed at once, has finished nothing
+    let first = recorder.finished().max(given.rows).saturating_sub(outcome.estimates.len());
     recorder.finish(&mut outcome, None);
     if !watch.stopped() {
+        let [estimates, at] = [&mut outcome.estimates, &mut outcome.at].map(core::mem::take);
         // nothing follows, whatever is answered
-        let _ = sink(Finished { first, estimates: &outcome.estimates, at: &outcome.at });
+        let _ = given.hand(first, estimates, at, sink);
     }
     Ended::of(outcome)
+}
+
+/// A recorder, at the beginning or where a stream was broken off: the row that it takes in next, and what was given already.
+fn begin<'t>(
+    course: &Course<'_, 't>,
+    from: &[Mark],
+    outcome: &mut Outcome,
+) -> Result<(Box<dyn Recording + Send + 't>, usize, Given), StepError> {
+    let (rows, goal) = (course.data.len(), course.goal);
+    let at = if matches!(goal, Goal::Filter | Goal::Interval) { course.at } else { &[] };
+    let Some(Mark(Kind::Rows { stand, handed, at: times })) = from.last() else {
+        let recorder = (course.begin)(Start::Prior(course.data.start(), course.prior), rows, at)?;
+        return Ok((recorder, 0, Given::default()));
+    };
+    let passed = stand.times(course).min(at.len());
+    outcome.log_likelihood = stand.log_likelihood;
+    let recorder = (course.begin)(stand.start(), rows, &at[passed..])?;
+    course.watch.count(stand.row);
+    let given = Given { rows: *handed, at: *times, twice: times.saturating_sub(passed) };
+    Ok((recorder, stand.row, given))
+}
+
+/// What was handed over: rows, and times; of the times, so many come a second time.
+#[derive(Default)]
+struct Given {
+    rows: usize,
+    at: usize,
+    twice: usize,
+}
+
+impl Given {
+    /// Hands over what was not.
+    fn hand(
+        &mut self,
+        first: usize,
+        mut rows: Estimates,
+        mut at: Estimates,
+        sink: &mut dyn Sink,
+    ) -> ControlFlow<()> {
+        let again = self.rows.saturating_sub(first).min(rows.len());
+        if again > 0 {
+            rows = rows.split_off(again);
+        }
+        let twice = self.twice.min(at.len());
+        if twice > 0 {
+            at = at.split_off(twice);
+        }
+        self.twice -= twice;
+        self.rows += rows.len();
+        self.at += at.len();
+        sink.take(Finished { first: first + again, estimates: &rows, at: &at })
+    }
 }
 
 impl Ended {

@@ -3,6 +3,8 @@
 mod course;
 mod forward;
 mod interval;
+mod mark;
+mod segments;
 
 use crate::batch::Track;
 use crate::filter::StepError;
@@ -14,6 +16,8 @@ use core::num::NonZeroUsize;
 use core::ops::ControlFlow;
 use core::sync::atomic::{AtomicBool, AtomicUsize};
 use course::Course;
+
+pub use mark::Mark;
 
 /// Rows that are finished together.
 #[derive(Clone, Copy, Debug)]
@@ -51,7 +55,7 @@ pub struct Ended {
 /// use givens::batch::Track;
 /// use givens::filter::{Gaussian, SrCkf};
 /// use givens::model::zoo::{CoordinatedTurn, RangeBearing};
-/// use givens::{Data, Goal, Stream};
+/// use givens::{Data, Finished, Goal, Stream};
 ///
 /// let (turn, radar) = (CoordinatedTurn::default(), RangeBearing::published());
 /// let prior = Gaussian::from_std(&[1000.0, 300.0, 1000.0, 0.0, -0.05], &[10.0, 3.2, 10.0, 3.2, 0.01])?;
@@ -61,7 +65,7 @@ pub struct Ended {
 /// }
 /// let stream = Stream { goal: Goal::Interval, hold: 20, ..Stream::default() };
 /// let mut rows = 0;
-/// let ended = stream.run(SrCkf::default(), &Track::new(&turn, &radar, &data, &prior), &mut |finished| {
+/// let ended = stream.run(SrCkf::default(), &Track::new(&turn, &radar, &data, &prior), &mut |finished: Finished| {
 ///     assert_eq!(finished.first, rows);
 ///     rows += finished.estimates.len();
 ///     ControlFlow::Continue(())
@@ -81,17 +85,32 @@ pub struct Stream<'a> {
     pub cancel: Option<&'a AtomicBool>,
     /// Counts the rows as they are taken in; where the data are gone over thrice, to the third part each time.
     pub rows: Option<&'a AtomicUsize>,
+    /// The marks of a stream that was broken off, all of them and in their order; none for one from the beginning.
+    pub from: &'a [Mark],
 }
 
 impl Default for Stream<'_> {
     /// Filtering, with up to 8192 rows at once.
     fn default() -> Self {
-        Self { goal: Goal::Filter, hold: 8192, threads: None, cancel: None, rows: None }
+        Self { goal: Goal::Filter, hold: 8192, threads: None, cancel: None, rows: None, from: &[] }
     }
 }
 
-/// Takes in rows that are finished. After `Break` none follows.
-pub type Sink<'s> = dyn FnMut(Finished) -> ControlFlow<()> + 's;
+/// Takes in what a stream hands over: a closure, or what keeps its marks too.
+pub trait Sink {
+    /// Takes in rows that are finished. After `Break` none follows.
+    fn take(&mut self, finished: Finished) -> ControlFlow<()>;
+
+    /// Takes in how far the stream has come, all rows before being taken in. A fixed point, and a fixed interval that is held
+    /// as a whole, come to no mark before they end.
+    fn mark(&mut self, _mark: Mark) {}
+}
+
+impl<F: FnMut(Finished) -> ControlFlow<()>> Sink for F {
+    fn take(&mut self, finished: Finished) -> ControlFlow<()> {
+        self(finished)
+    }
+}
 
 impl Stream<'_> {
     /// Bytes of memory for each row that is held, of n `states` and d `measures`: its estimates, and what the fixed-interval
@@ -104,7 +123,7 @@ impl Stream<'_> {
 
     /// Runs a method over a trajectory, and hands its rows to `sink`; a method of run time by
     /// [`Choice::stream`](crate::registry::Choice::stream).
-    pub fn run<X, M, H>(&self, method: X, track: &Track<M, H>, sink: &mut Sink) -> Ended
+    pub fn run<X, M, H>(&self, method: X, track: &Track<M, H>, sink: &mut dyn Sink) -> Ended
     where
         X: Computes<M, Method: Send + Sync>,
         M: Sync,
@@ -113,7 +132,7 @@ impl Stream<'_> {
         let Track { model, sensors, data, prior, parameters, at } = *track;
         let (goal, watch) = (self.goal, Watch { cancel: self.cancel, rows: self.rows });
         // a smoother in segments counts its rows itself
-        let segments = goal == Goal::Interval && data.len() > self.hold;
+        let segments = goal == Goal::Interval && (data.len() > self.hold || !self.from.is_empty());
         let counted = if segments { Watch { rows: None, ..watch } } else { watch };
         let limits = &match gate::limits(method.gate(), sensors.measures()) {
             Ok(limits) => limits,
@@ -125,10 +144,6 @@ impl Stream<'_> {
         let task = Task { method: method.method(), model, sensors, parameters, goal, limits, watch: counted };
         let begin = |start: Start<'_>, rows, at| course::begin::<_, _, _, X::Number>(task, start, rows, at);
         let course = Course { begin: &begin, data, prior, at, goal, measures: sensors.measures(), watch };
-        if segments {
-            interval::stream(&course, self.hold, self.threads, sink)
-        } else {
-            forward::stream(&course, self.hold, sink)
-        }
+        if segments { interval::stream(&course, self, sink) } else { forward::stream(&course, self, sink) }
     }
 }

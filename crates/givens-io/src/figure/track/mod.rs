@@ -138,7 +138,7 @@ pub struct NisSeries {
 }
 
 /// What was counted of all rows, where only some are drawn.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, serde::Serialize, serde::Deserialize)]
 pub struct NisCounts {
     /// Rows with a value within its band, and rows with one.
     pub inside: [usize; 2],

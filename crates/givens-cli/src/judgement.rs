@@ -1,0 +1,239 @@
+//! `--report`: a run judged by its own innovations, in words.
+
+use crate::figure;
+use crate::message::{Stop, count, digits};
+use crate::plan::Plan;
+use crate::report::Summary;
+use givens::metrics::{Consistency, InnovationSums, MeasureVerdict, Verdict};
+use givens::scalar::Shown;
+use givens_io::{Page, Tone, Track};
+use std::path::Path;
+
+/// The longest gaps that are named.
+const GAPS: usize = 5;
+/// A gap so many times the usual one is told.
+const LONG: f64 = 10.0;
+
+/// The page about a run.
+pub fn page(
+    plan: &Plan,
+    summary: &Summary,
+    innovations: &InnovationSums,
+    failures: &[String],
+    shown: &[figure::Shown],
+) -> Result<String, Stop> {
+    let mut page = Page::new(&format!("{} by {}", plan.data, plan.choice.title()));
+    let (tracks, model) = (plan.tracks.tracks.len(), &plan.model);
+    page.say(
+        Tone::Plain,
+        &format!(
+            "{} of {}, {} and {}; the model is {}. Log-likelihood {:.3}.",
+            count(summary.rows, "row"),
+            count(tracks, "track"),
+            count(model.states.len(), "state"),
+            count(model.measures(), "measure"),
+            model.file,
+            Shown(summary.log_likelihood)
+        ),
+    );
+    failures.iter().for_each(|failure| page.say(Tone::Look, failure));
+    page.heading("Are the errors as large as the filter says?");
+    let (tone, words) = size(&summary.consistency);
+    page.say(tone, &words);
+    measures(&mut page, plan, innovations);
+    outliers(&mut page, plan, innovations);
+    gaps(&mut page, plan);
+    if !shown.is_empty() {
+        page.heading("The run");
+        let svg = figure::draw(Path::new("report.svg"), plan, shown)?;
+        page.figure(&String::from_utf8_lossy(&svg));
+    }
+    Ok(page.finish())
+}
+
+/// The mean NIS in words.
+fn size(consistency: &Consistency) -> (Tone, String) {
+    let Consistency { ratio, band: (low, high), .. } = *consistency;
+    let of = format!(
+        "mean NIS is {ratio:.3} per degree of freedom, of a right model {low:.3} to {high:.3} (95 %)"
+    );
+    match consistency.verdict() {
+        Verdict::Unknown => (Tone::Look, "Nothing was measured: there is nothing to judge by.".to_owned()),
+        Verdict::Consistent => (Tone::Good, format!("Yes: {of}.")),
+        Verdict::Overconfident => (
+            Tone::Look,
+            format!(
+                "They are larger: {of}. The filter trusts itself too much. Below stands which measures are concerned: where \
+                 one foretells its next innovation, the state moves otherwise than the model says, and more process noise \
+                 helps; where not, its own noise is told too small."
+            ),
+        ),
+        Verdict::Underconfident => (
+            Tone::Look,
+            format!(
+                "They are smaller: {of}. The filter could be more precise: process noise or measurement noise is told too large."
+            ),
+        ),
+    }
+}
+
+/// A table of the measures, and what is wrong with each.
+fn measures(page: &mut Page, plan: &Plan, innovations: &InnovationSums) {
+    page.heading("Measures");
+    let names: Vec<String> = plan
+        .model
+        .sensors
+        .iter()
+        .flat_map(|sensor| sensor.columns.iter().map(|column| format!("{column} of {}", sensor.name)))
+        .collect();
+    let found = innovations.measures();
+    let known: Vec<(&String, MeasureVerdict)> =
+        names.iter().zip(found).filter(|(_, found)| found.count > 0).collect();
+    let row = |(name, found): &(&String, MeasureVerdict)| {
+        let correlation =
+            if found.pairs == 0 { "–".to_owned() } else { format!("{:.3}", found.correlation) };
+        let numbers = [
+            found.count.to_string(),
+            format!("{:.3}", found.mean),
+            format!("{:.3}", found.mean_square),
+            correlation,
+        ];
+        core::iter::once((*name).clone()).chain(numbers).collect()
+    };
+    page.say(
+        Tone::Plain,
+        "Innovations in their own standard deviations: of a right model their mean is 0, their mean square 1, and each is \
+         independent of the one before.",
+    );
+    let header = ["measure", "innovations", "mean", "mean square", "correlation with the next"];
+    page.table(&header, &known.iter().map(row).collect::<Vec<_>>());
+    let mut good = true;
+    for (name, found) in &known {
+        for words in wrong(found) {
+            good = false;
+            page.say(Tone::Look, &format!("{name}: {words}"));
+        }
+    }
+    if good && !known.is_empty() {
+        page.say(
+            Tone::Good,
+            "No measure is biased, of another size than told, or foretells its next innovation.",
+        );
+    }
+}
+
+/// What is wrong with a measure.
+fn wrong(found: &MeasureVerdict) -> Vec<String> {
+    let mut words = Vec::new();
+    if found.is_biased() {
+        let mean = found.mean;
+        words.push(format!(
+            "it is biased by {mean:.2} of its standard deviations; look for an offset of the sensor, or add one to the state."
+        ));
+    }
+    if found.is_correlated() {
+        let (how, what) = if found.correlation > 0.0 {
+            (
+                "with its sign",
+                "the state moves otherwise than the model says (more process noise), or the sensor's errors last",
+            )
+        } else {
+            ("with the other sign", "the process noise is told too large, or the measurement's too small")
+        };
+        words.push(format!(
+            "an innovation foretells the next, {how} (correlation {:.2}): {what}.",
+            found.correlation
+        ));
+    }
+    if found.is_of_other_size() && !found.is_correlated() {
+        let factor = found.mean_square.sqrt();
+        words.push(format!(
+            "its innovations are {factor:.2} times as large as told; if the motion is right, its std wants about that factor, or \
+             somewhat {}.",
+            if factor > 1.0 { "more" } else { "less" }
+        ));
+    }
+    words
+}
+
+/// Rows that stand out.
+fn outliers(page: &mut Page, plan: &Plan, innovations: &InnovationSums) {
+    page.heading("Outliers");
+    let [rows, beyond, far] = innovations.rows();
+    let expected = 1e-4 * rows as f64;
+    let tone = if far as f64 > expected + 5.0 * expected.max(0.2).sqrt() { Tone::Look } else { Tone::Good };
+    let percent = if rows == 0 { 0.0 } else { 100.0 * beyond as f64 / rows as f64 };
+    let gate = match (plan.choice.gate, tone) {
+        (None, Tone::Look) => " A gate (--set gate=0.9999) leaves them out, marked and counted.",
+        _ => "",
+    };
+    page.say(
+        tone,
+        &format!(
+            "{far} of {} lie beyond the quantile 0.9999 of NIS, where {} would be expected; beyond 0.95 lie {percent:.1} %.{gate}",
+            count(rows, "measured row"),
+            digits(expected)
+        ),
+    );
+    let row = |outlier: &givens::metrics::Outlier| {
+        let track = &plan.tracks.tracks[outlier.track];
+        let row = &track.rows[outlier.row];
+        let used = if outlier.gated { "not taken in" } else { "taken in" };
+        vec![
+            place(plan, track, row.line),
+            row.time_text.clone(),
+            digits(outlier.nis),
+            outlier.dof.to_string(),
+            used.to_owned(),
+        ]
+    };
+    let worst: Vec<_> = innovations.worst().iter().map(row).collect();
+    page.table(&["row", "time", "NIS", "degrees of freedom", "it was"], &worst);
+}
+
+fn place(plan: &Plan, track: &Track, line: usize) -> String {
+    let name = track.id.as_ref().map_or(String::new(), |id| format!(" (track {id})"));
+    format!("{}:{line}{name}", plan.data)
+}
+
+/// Times without rows.
+fn gaps(page: &mut Page, plan: &Plan) {
+    page.heading("Gaps");
+    let mut gaps: Vec<(f64, &Track, usize)> = Vec::new();
+    for track in &plan.tracks.tracks {
+        let pairs = track.rows.windows(2).enumerate();
+        gaps.extend(
+            pairs.map(|(k, pair)| (pair[1].time - pair[0].time, track, k)).filter(|(gap, ..)| *gap > 0.0),
+        );
+    }
+    gaps.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let Some(&(usual, ..)) = gaps.get(gaps.len() / 2) else {
+        page.say(Tone::Plain, "No track has rows at two times.");
+        return;
+    };
+    let long: Vec<_> = gaps.iter().take_while(|(gap, ..)| *gap > LONG * usual).collect();
+    let empty = plan.tracks.tracks.iter().flat_map(|track| &track.rows).filter(|row| !row.measured()).count();
+    let (tone, words) = match long.len() {
+        0 => (
+            Tone::Good,
+            format!("The usual gap between rows is {}; none is {LONG} times as long.", digits(usual)),
+        ),
+        n => (
+            Tone::Look,
+            format!(
+                "The usual gap between rows is {}; {n} of {} are more than {LONG} times as long.",
+                digits(usual),
+                gaps.len()
+            ),
+        ),
+    };
+    page.say(tone, &words);
+    if empty > 0 {
+        page.say(Tone::Plain, &format!("{} without a measure: predictions.", count(empty, "row")));
+    }
+    let row = |&&(gap, track, k): &&(f64, &Track, usize)| {
+        let (from, to) = (&track.rows[k], &track.rows[k + 1]);
+        vec![place(plan, track, from.line), from.time_text.clone(), to.time_text.clone(), digits(gap)]
+    };
+    page.table(&["behind row", "from", "to", "length"], &long.iter().take(GAPS).map(row).collect::<Vec<_>>());
+}

@@ -220,8 +220,8 @@ fn wrong_parameters_and_lists() {
             (
                 "report",
                 NONE,
-                "filter model.toml data.csv -o out.csv --report r.html",
-                &["unexpected argument '--report'"],
+                "filter model.toml data.csv -o out.csv --reprot r.html",
+                &["unexpected argument '--reprot'", "--report"],
             ),
             (
                 "parquet",

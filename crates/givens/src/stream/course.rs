@@ -65,6 +65,12 @@ impl Course<'_, '_> {
         self.at.partition_point(|&t| t < time)
     }
 
+    /// How many of them lie up to the row before this one.
+    pub fn up_to(&self, row: usize) -> usize {
+        let before = row.checked_sub(1).and_then(|k| self.data.row(k));
+        before.map_or(0, |before| self.at.partition_point(|&t| t <= before.time))
+    }
+
     pub fn blank(&self) -> Outcome {
         Outcome::new(self.prior.mean().len(), self.measures, self.goal)
     }

@@ -75,7 +75,7 @@ fn begin<'t>(
         let recorder = (course.begin)(Start::Prior(course.data.start(), course.prior), rows, at)?;
         return Ok((recorder, 0, Given::default()));
     };
-    let passed = stand.times(course).min(at.len());
+    let passed = course.before(stand.row).min(at.len());
     outcome.log_likelihood = stand.log_likelihood;
     let recorder = (course.begin)(stand.start(), rows, &at[passed..])?;
     course.watch.count(stand.row);

@@ -1,6 +1,5 @@
 //! Where a stream stands.
 
-use super::course::Course;
 use crate::filter::Snapshot;
 use crate::run::{Crossing, Start};
 
@@ -49,10 +48,5 @@ impl Stand {
     /// How a recorder starts here.
     pub fn start(&self) -> Start<'_> {
         Start::Snapshot(&self.filter)
-    }
-
-    /// How many of the wanted times lie before its row.
-    pub fn times(&self, course: &Course) -> usize {
-        course.before(self.row)
     }
 }

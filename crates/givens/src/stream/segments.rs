@@ -59,7 +59,7 @@ impl<'s, 't> Segments<'s, 't> {
                 segments.finished = last.row;
                 outcome.log_likelihood = last.log_likelihood;
                 progress.add(last.row);
-                (course.begin)(last.start(), 1, &course.at[last.times(course)..])?
+                (course.begin)(last.start(), 1, &course.at[course.up_to(last.row)..])?
             }
         };
         while segments.finished < rows && !course.watch.stopped() {

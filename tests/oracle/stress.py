@@ -1,16 +1,18 @@
 """The Kalman filter of each rung of stress_cases.py in sixty digits, and what the rounding of its numbers costs.
 
 A filter that reads the numbers in f32 cannot answer better than they are there. So there is an answer for the numbers in `f64` and
-one for those in `f32`, and beside each its cost: the largest change, over `TRIALS` random changes of every number by up to half a
-spacing, in units of the answer's own standard deviations.
+one for those in `f32`, and beside each its cost: the largest change, over `TRIALS` random changes of every number by half a spacing,
+in units of the answer's own standard deviations. `cost` is of the numbers of the problem; `points` is of those and of the points at
+which a filter that takes no derivatives asks the model, and of what it is told there.
 """
 
 import random
 import struct
 
+import numpy as np
 from linear import divide, factor
 from mpmath import mp, mpf
-from precise import exact, identity, lower, to_float, zeros
+from precise import elementwise, exact, identity, lower, to_float, zeros
 from stress_cases import CASES
 
 TRIALS = 6
@@ -57,8 +59,30 @@ def update(m, p, h, r, z):
     return m + gain @ (z - h @ m), left @ p @ left.T + gain @ r @ gain.T
 
 
-def filtered(rung, numbers):
-    """Mean and covariance after each row."""
+def through_points(m, p, f, q, h, r, z, moved):
+    """One row by the third-degree cubature rule, which is the Kalman filter but for the rounding of points and images."""
+    n = len(m)
+    scale = mp.sqrt(n)
+
+    def points(m, p):
+        spread = scale * factor(p, "covariance")
+        return moved(np.concatenate([m[:, None] + spread, m[:, None] - spread], axis=1))
+
+    def centred(images):
+        mean = images.sum(axis=1) / (2 * n)
+        return mean, (images - mean[:, None]) / mp.sqrt(2 * n)
+
+    m, spread = centred(moved(f @ points(m, p)))
+    p = spread @ spread.T + q
+    x = points(m, p)
+    (zm, zs), (_, xs) = centred(moved(h @ x)), centred(x)
+    gain = divide(xs @ zs.T, factor(zs @ zs.T + r, "innovation covariance"))
+    rest = xs - gain @ zs
+    return m + gain @ (z - zm), rest @ rest.T + gain @ r @ gain.T
+
+
+def filtered(rung, numbers, moved=None):
+    """Mean and covariance after each row; by points, with their rounding, if `moved` is given."""
     m, p = exact(numbers["mean"]), exact(numbers["cov"])
     h, r = exact(numbers["h"]), exact(numbers["r"])
     steps = [(exact(step["f"]), exact(step["q"])) for step in numbers["steps"]]
@@ -68,9 +92,12 @@ def filtered(rung, numbers):
     out = []
     for k, (z, turned) in enumerate(zip(numbers["z"], cycles)):
         f, q = steps[min(k, len(steps) - 1)]
-        m, p = f @ m, f @ p @ f.T + q
         # once around is 2π as the float holds it, the period that a filter is told
-        m, p = update(m, p, h, r, exact(z) + mpf(rung.get("period", 0.0)) * exact([float(t) for t in turned]))
+        z = exact(z) + mpf(rung.get("period", 0.0)) * exact([float(t) for t in turned])
+        if moved is None:
+            m, p = update(f @ m, f @ p @ f.T + q, h, r, z)
+        else:
+            m, p = through_points(m, p, f, q, h, r, z, moved)
         out.append((m, p))
     return out
 
@@ -113,11 +140,17 @@ def answers(rung, precision, seed):
     """Of the numbers as the precision holds them."""
     numbers = changed(rung, single if precision == "f32" else float)
     answer = filtered(rung, numbers)
-    draw, cost = random.Random(seed), mpf(0)
+    draw, cost, points = random.Random(seed), mpf(0), mpf(0)
+
+    def move(v):
+        return mpf(v) * (1 + mpf(HALF[precision]) * draw.choice((-1, 1)))
+
     for _ in range(TRIALS):
-        moved = changed(numbers, lambda v: mpf(v) * (1 + mpf(HALF[precision]) * draw.choice((-1, 1))))
+        moved = changed(numbers, move)
         cost = max(cost, distance(filtered(rung, moved), answer))
-    return {"cost": float(f"{float(cost):.2e}"), "rows": [{"mean": to_float(m), "cov": lower(p)} for m, p in answer]}
+        points = max(points, cost, distance(filtered(rung, moved, elementwise(move)), answer))
+    costs = {"cost": float(f"{float(cost):.2e}"), "points": float(f"{float(points):.2e}")}
+    return costs | {"rows": [{"mean": to_float(m), "cov": lower(p)} for m, p in answer]}
 
 
 def cases():

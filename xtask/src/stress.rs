@@ -1,6 +1,6 @@
 //! `cargo xtask stress`: docs/stress.md, its head written by hand, the tables below it by givens and the peers that are there.
 
-use crate::bench::{cargo, target};
+use crate::bench::{cargo, peers, target};
 use crate::say;
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
@@ -9,14 +9,17 @@ use std::process::{Command, Stdio};
 /// Ends the head of the page.
 const MARK: &str = "<!-- Below: the tables that `cargo xtask stress` wrote. -->";
 
-/// The peers in Python, by the word of `benchmarks/python/stress.py`, and the precisions they are run in.
-const PEERS: [(&str, &[&str]); 5] = [
+/// The peers and the precisions they are run in: that in Rust, and those in Python by the word of `benchmarks/python/stress.py`.
+const PEERS: [(&str, &[&str]); 6] = [
+    (RUST, &["f64", "f32"]),
     ("filterpy", &["f64"]),
     ("turbo-ckf", &["f64"]),
     ("kalman-py", &["f64"]),
     ("cuthbert", &["f64", "f32"]),
     ("dynamax", &["f64", "f32"]),
 ];
+
+const RUST: &str = "numeris";
 
 /// Runs all, and writes the page; whether that could be done.
 pub fn run(root: &Path) -> bool {
@@ -59,17 +62,30 @@ fn written(root: &Path) -> Result<(), String> {
 }
 
 /// Runs a peer, its answers into a file.
-fn answered(root: &Path, environments: &Path, peer: &str, precision: &str, file: &Path) -> Result<(), String> {
-    let interpreter = environments.join("python/bin/python");
-    if !interpreter.exists() {
-        return Err("its environment is not there; `cargo xtask bench --prepare` makes it, with network".to_owned());
-    }
+fn answered(
+    root: &Path,
+    environments: &Path,
+    peer: &str,
+    precision: &str,
+    file: &Path,
+) -> Result<(), String> {
+    let mut command = if peer == RUST {
+        let mut command = Command::new(peers(root, environments)?);
+        command.args(["stress", precision]);
+        command
+    } else {
+        let interpreter = environments.join("python/bin/python");
+        if !interpreter.exists() {
+            return Err("its environment is not there; `cargo xtask bench --prepare` makes it, with network"
+                .to_owned());
+        }
+        let mut command = Command::new(interpreter);
+        command.arg("benchmarks/python/stress.py").args([peer, precision]);
+        command.env("JAX_PLATFORMS", "cpu").env("PYTHONDONTWRITEBYTECODE", "1");
+        command
+    };
     let out = File::create(file).map_err(|error| format!("{}: {error}", file.display()))?;
-    let mut command = Command::new(interpreter);
-    command.current_dir(root).arg("benchmarks/python/stress.py").args([peer, precision]);
-    command.arg("tests/golden/stress.json").stdout(out);
-    command.env("JAX_PLATFORMS", "cpu").env("PYTHONDONTWRITEBYTECODE", "1");
-    match command.status() {
+    match command.current_dir(root).arg("tests/golden/stress.json").stdout(out).status() {
         Ok(status) if status.success() => Ok(()),
         Ok(status) => Err(format!("it ended with {status}")),
         Err(error) => Err(error.to_string()),

@@ -3,7 +3,8 @@
 
 use givens::registry::{Choice, Precision, Setting, resolve};
 use givens_tests::stress::{
-    Answered, Asks, Case, Column, Peer, Rung, Verdict, asks, case, cases, judge, named_methods, read_peers, table,
+    Answered, Asks, Case, Column, Peer, Rung, Verdict, asks, case, cases, judge, named_methods, read_peers,
+    table,
 };
 
 fn main() {
@@ -11,7 +12,8 @@ fn main() {
     if words.first().is_some_and(|word| word == "--long") {
         return long();
     }
-    let read = |path: &String| std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{path}: {error}"));
+    let read =
+        |path: &String| std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{path}: {error}"));
     let peers: Vec<Peer> = words.iter().flat_map(|path| read_peers(&read(path))).collect();
     for case in cases() {
         println!("\n### `{}`: {}\n", case.name, case.about);

@@ -35,7 +35,8 @@ pub fn named_methods(rung: &Rung, precision: Precision) -> Vec<Tried> {
             Kind::Discrete => !rung.continuous,
             Kind::Continuous => rung.flow.is_some(),
         };
-        let updates: &[&str] = if entry.form == FormName::SquareRoot { &["joint", "separate"] } else { &[""] };
+        let updates: &[&str] =
+            if entry.form == FormName::SquareRoot { &["joint", "separate"] } else { &[""] };
         for &update in updates.iter().filter(|_| serves) {
             let setting = Setting { key: "update".into(), value: update.into() };
             let settings = if update.is_empty() { vec![] } else { vec![setting] };
@@ -56,7 +57,11 @@ fn label(name: &str, update: &str) -> String {
 fn stiff_solvers() -> Vec<Tried> {
     let stiff = [Setting { key: "solver".into(), value: "rodas4".into() }];
     let of = |name: &'static str| Some((format!("{name}, rodas4"), resolve(name, &stiff).ok()?));
-    ENTRIES.iter().filter(|entry| entry.kind() == Kind::Continuous).filter_map(|entry| of(entry.name)).collect()
+    ENTRIES
+        .iter()
+        .filter(|entry| entry.kind() == Kind::Continuous)
+        .filter_map(|entry| of(entry.name))
+        .collect()
 }
 
 /// A covariance has no f32.

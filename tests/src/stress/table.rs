@@ -28,8 +28,12 @@ pub fn table(case: &Case, columns: &[Column]) -> String {
 /// How far right, then the first failure of each kind.
 #[must_use]
 pub fn cell(case: &Case, verdicts: &[Option<Verdict>]) -> String {
-    let judged: Vec<(f64, &Verdict)> =
-        case.rungs.iter().zip(verdicts).filter_map(|(rung, verdict)| Some((rung.d, verdict.as_ref()?))).collect();
+    let judged: Vec<(f64, &Verdict)> = case
+        .rungs
+        .iter()
+        .zip(verdicts)
+        .filter_map(|(rung, verdict)| Some((rung.d, verdict.as_ref()?)))
+        .collect();
     let Some(&(last, _)) = judged.last() else { return "–".to_owned() };
     let first = |kind: fn(&Verdict) -> bool| judged.iter().find(|(_, verdict)| kind(verdict));
     let mut failures: Vec<(f64, String)> = Vec::new();

@@ -86,7 +86,7 @@ pub fn build(root: &Path) -> Result<PathBuf, String> {
     build::ours_for_counting(root, &target(root))
 }
 
-pub use build::cargo;
+pub use build::{cargo, peers};
 pub use machine::line_of;
 
 /// Where cargo builds.

@@ -50,12 +50,12 @@ fn written(root: &Path) -> Result<(), String> {
         }
     }
     say("givens");
-    let mut tables = report(root, &answers)?;
+    let mut tables = grouped(&report(root, &answers)?);
     say("givens, ten million rows");
-    tables += "\n### Ten million rows: `sr-ckf` on `long_run`\n\n";
+    tables += "\n\n### Ten million rows: `sr-ckf` on `long_run`\n\n";
     tables += &report(root, &[PathBuf::from("--long")])?;
     if !absent.is_empty() {
-        tables += &format!("\nNot run here:\n\n{}", absent.concat());
+        tables += &["\nNot run here:\n\n", &absent.concat()].concat();
     }
     let new = joined(&old, &tables).ok_or_else(|| format!("{} has no line `{MARK}`", doc.display()))?;
     fs::write(&doc, new).map_err(|error| format!("{}: {error}", doc.display()))
@@ -109,6 +109,42 @@ fn joined(old: &str, tables: &str) -> Option<String> {
     Some(format!("{head}{MARK}\n\n{}\n", tables.trim()))
 }
 
+/// The tables with one row for all filters that fare alike, in the place of the first.
+fn grouped(tables: &str) -> String {
+    let (mut text, mut rows): (String, Vec<(Vec<&str>, &str)>) = (String::new(), Vec::new());
+    for line in tables.lines().chain([""]) {
+        let row = line.strip_prefix("| ").and_then(|row| row.split_once(" | "));
+        if let Some((name, cells)) = row {
+            match rows.iter_mut().find(|(_, own)| *own == cells) {
+                Some((names, _)) => names.push(name),
+                None => rows.push((vec![name], cells)),
+            }
+            continue;
+        }
+        for (names, cells) in rows.drain(..) {
+            text += &["| ", &both(&names).join(" · "), " | ", cells, "\n"].concat();
+        }
+        text += line;
+        text.push('\n');
+    }
+    text.trim_end().to_owned()
+}
+
+/// Where both updates of a square root fare alike, its name alone.
+fn both(names: &[&str]) -> Vec<String> {
+    let mut out = Vec::new();
+    for name in names {
+        match name.rsplit_once(", ") {
+            Some((root, "joint")) if names.contains(&format!("{root}, separate").as_str()) => {
+                out.push(root.to_owned());
+            }
+            Some((root, "separate")) if names.contains(&format!("{root}, joint").as_str()) => {}
+            _ => out.push((*name).to_owned()),
+        }
+    }
+    out
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -120,5 +156,12 @@ mod tests {
         assert_eq!(new, format!("# Head\n\n{MARK}\n\n### a\n\n| x |\n"));
         assert_eq!(joined(&new, "### a\n\n| x |").unwrap(), new);
         assert!(joined("no mark", "").is_none());
+    }
+
+    #[test]
+    fn filters_that_fare_alike_share_a_row() {
+        let table = "| filter | f64 | f32 |\n|---|---|---|\n| a, joint | x | – |\n| b | y | – |\n| a, separate | x | – |\n| c, joint | x | – |\n\ntext";
+        let shared = "| filter | f64 | f32 |\n|---|---|---|\n| a · c, joint | x | – |\n| b | y | – |\n\ntext";
+        assert_eq!(grouped(table), shared);
     }
 }

@@ -1,4 +1,4 @@
-"""The peers' filters over a rung of tests/golden/stress.json: each a generator of mean and covariance after every row."""
+"""The peers' filters over a rung of tests/golden/stress.json: generators of mean and covariance after every row."""
 
 from __future__ import annotations
 
@@ -25,10 +25,10 @@ class Rung:
         if self.repeat:
             return ((*self.steps[0], self.z[0]) for _ in range(self.repeat))
         steps = self.steps * len(self.z) if len(self.steps) == 1 else self.steps
-        return ((f, q, z) for (f, q), z in zip(steps, self.z))
+        return ((f, q, z) for (f, q), z in zip(steps, self.z, strict=True))
 
     def observe(self, x):
-        """h of one point, or of many (state last)."""
+        """H of one point, or of many (state last)."""
         z = x @ self.h.T
         return z if self.period is None else np.arctan2(np.sin(z), np.cos(z))
 
@@ -78,9 +78,7 @@ def filterpy_cubature(rung):
     from filterpy.kalman.CubatureKalmanFilter import spherical_radial_sigmas
 
     now = {}
-    kf = CubatureKalmanFilter(
-        rung.n, rung.d, 1.0, rung.observe, lambda x, dt: now["f"] @ x, residual_z=rung.difference
-    )
+    kf = CubatureKalmanFilter(rung.n, rung.d, 1.0, rung.observe, lambda x, dt: now["f"] @ x, residual_z=rung.difference)
     kf.x, kf.P, kf.R = rung.mean.reshape(-1, 1).copy(), rung.cov.copy(), rung.r
     for f, q, z in rung.rows():
         now["f"], kf.Q = f, q
@@ -215,7 +213,7 @@ def dynamax_linear(rung):
     )
     post = lg.lgssm_filter(params, asarray([row[2] for row in rows]))
     first = len(rows) - 1 if rung.repeat else 0
-    yield from zip(np.array(post.filtered_means)[first:], np.array(post.filtered_covariances)[first:])
+    yield from zip(np.array(post.filtered_means)[first:], np.array(post.filtered_covariances)[first:], strict=True)
 
 
 def dynamax_unscented(rung):
@@ -232,4 +230,4 @@ def dynamax_unscented(rung):
 
     params = ParamsNLGSSM(mean, cov, lambda x: f @ x, q, observe, r)
     post = unscented_kalman_filter(params, jnp.asarray(rung.z), UKFHyperParams(alpha=1.0, beta=0.0, kappa=1.0))
-    yield from zip(np.array(post.filtered_means), np.array(post.filtered_covariances))
+    yield from zip(np.array(post.filtered_means), np.array(post.filtered_covariances), strict=True)

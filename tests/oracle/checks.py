@@ -6,6 +6,7 @@ import numpy as np
 from mpmath import mpf
 
 import square_root
+import stress_checks
 from filtering import run_filter
 from linear import divide, factor
 from model import Model, read_rows
@@ -196,6 +197,7 @@ def full(triangle, n):
 
 
 def main(golden):
-    good = [check_linear(golden), check_lags(golden), check_published(golden), check_square_root(golden)]
+    good = [check_linear(golden), check_lags(golden), check_published(golden)]
+    good += [check_square_root(golden), stress_checks.main(golden)]
     print("all well" if all(good) else "SOMETHING DISAGREES")
     return 0 if all(good) else 1

@@ -11,6 +11,7 @@ import sys
 from pathlib import Path
 
 import ill_conditioned
+import stress
 from filtering import run_filter
 from model import Model, read_rows
 from precise import lower, to_float
@@ -159,6 +160,9 @@ def main():
     if not options.scenarios or "ill_conditioned" in options.scenarios:
         value = json.loads(json.dumps(ill_conditioned.cases()))
         good &= settle(GOLDEN / "ill_conditioned.json", json_text(value) + "\n", value, options.check)
+    if not options.scenarios or "stress" in options.scenarios:
+        value = json.loads(json.dumps(stress.cases()))
+        good &= settle(GOLDEN / "stress.json", json_text(value) + "\n", value, options.check)
     return 0 if good else 1
 
 

@@ -7,6 +7,7 @@ pub mod ill_conditioned;
 pub mod models;
 pub mod scenario;
 pub mod sde;
+pub mod stress;
 
 // the examples of the README run with those of the documentation
 #[cfg(doctest)]

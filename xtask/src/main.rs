@@ -10,6 +10,7 @@ mod instructions;
 mod reproduction;
 mod rust_text;
 mod step;
+mod stress;
 mod tidy;
 mod tree;
 
@@ -25,6 +26,7 @@ const USAGE: &str = "usage:
   cargo xtask bench [OPTIONS]
                       givens and its peers on fixed workloads, into docs/benchmarks.md; with --scaling, what a step costs as
                       something grows, into docs/scaling.md
+  cargo xtask stress  givens and its peers on problems that grow harder rung by rung, into docs/stress.md
   cargo xtask instructions [--bless | --where-valgrind-is]
                       counts the instructions of fixed work under valgrind, against benchmarks/instructions.toml; without
                       valgrind an error, or nothing
@@ -43,6 +45,7 @@ fn main() -> ExitCode {
         ["reproduction", pages] => reproduction::run(&root(), Path::new(pages)),
         ["bench", options @ ..] => bench::run(&root(), options),
         ["dependencies"] => dependencies::run(&root()),
+        ["stress"] => stress::run(&root()),
         ["embedded"] => embedded::run(&root()),
         ["instructions"] => instructions::run(&root(), false),
         ["instructions", "--where-valgrind-is"] => !instructions::can() || instructions::run(&root(), false),

@@ -1,4 +1,4 @@
-//! The Rust peers: `peers CONTESTANT WORKLOAD INPUTS`, as `givens_contest` says.
+//! The Rust peers: `peers CONTESTANT WORKLOAD INPUTS`, as `givens_contest` says; `peers stress PRECISION FILE` for docs/stress.md.
 
 mod bayes;
 mod circle;
@@ -9,6 +9,7 @@ mod plane;
 mod race;
 mod smelly_peer;
 mod space;
+mod stress;
 mod ukf_peer;
 
 use circle::Circle;
@@ -20,6 +21,11 @@ use space::Space;
 
 fn main() -> Result<(), Failure> {
     let (contestant, workload, inputs) = called_with()?;
+    if contestant == "stress" {
+        let file = std::env::args().nth(3).unwrap_or_default();
+        println!("{}", stress::run(&workload, &file)?);
+        return Ok(());
+    }
     let entry = match workload.as_str() {
         "W1" => fixed::<_, 5, 11, 2>(Plane, &contestant, inputs.csv("plane")?, 1000, 10)?,
         "W2" => fixed::<_, 5, 11, 2>(Plane, &contestant, inputs.f32("plane_tracks", 2)?, 100, 100)?,

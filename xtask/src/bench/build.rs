@@ -96,7 +96,7 @@ fn ours_with(root: &Path, target: &Path, words: &[&str]) -> Result<PathBuf, Stri
 }
 
 /// The peers are a workspace of their own, built for this very machine.
-fn peers(root: &Path, environments: &Path) -> Result<PathBuf, String> {
+pub fn peers(root: &Path, environments: &Path) -> Result<PathBuf, String> {
     let target = environments.join("peers");
     let mut build = cargo();
     build.current_dir(root.join("benchmarks/peers")).args(["build", "--release", "--quiet", "--locked"]);

@@ -86,9 +86,10 @@ pub fn build(root: &Path) -> Result<PathBuf, String> {
     build::ours_for_counting(root, &target(root))
 }
 
+pub use build::{cargo, peers};
 pub use machine::line_of;
 
 /// Where cargo builds.
-fn target(root: &Path) -> PathBuf {
+pub fn target(root: &Path) -> PathBuf {
     std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), PathBuf::from)
 }

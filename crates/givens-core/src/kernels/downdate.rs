@@ -10,7 +10,7 @@ outlined! {
     /// `v` (length n) is used up, and the triangle above the diagonal, which must be zero, stays so. The square of pivot k
     /// is r² = L_kk² − v_k², known to τ = e max(L_kk, |v_k|), where e is 64 ε ‖row k‖ and what the errors of the rows
     /// above have made of it: below −τ it is the failure that health names; within τ of zero the column is zero and the
-    /// downdate ends. Where L_kk and v_k are themselves zero to rounding, or their squares are and what stands below them differs,
+    /// downdate ends. A pivot that v_k is less than half of loses nothing by it, however small it is, and goes on. Where L_kk and v_k are themselves zero to rounding, or their squares are and what stands below them differs,
     /// what stands below L_kk is rotated into the columns after it, and the downdate goes on with the next row.
     ///
     /// ```
@@ -37,8 +37,10 @@ fn downdated<T: Real>(l: &mut [T], n: usize, stride: usize, v: &mut [T]) -> Heal
         }
         let size = pivot.max(vk.abs());
         let rounding = T::of(64.0 * T::EPSILON) * own;
-        let mut absent = size.le(rounding);
-        let mut spent = r2.abs().le(rounding * size) & !untouched & !absent;
+        // of a pivot that hardly changes, nothing cancels: rounding beside its row is no reason to take it for zero
+        let cancels = !(vk.abs() + vk.abs()).lt(pivot);
+        let mut absent = size.le(rounding) & cancels;
+        let mut spent = r2.abs().le(rounding * size) & cancels & !untouched & !absent;
         if spent.any() {
             let torn = spent & torn(l, n, stride, k, v) & (size * size).le(rounding * own);
             (absent, spent) = (absent | torn, spent & !torn);
@@ -117,6 +119,16 @@ mod tests {
         assert_eq!((l[4], l[7]), (0.0, 0.0));
         // the variance of the last row, 9 + 16 + 25, less 1
         assert!((l[6] * l[6] + l[8] * l[8] - 49.0).abs() < 1e-13);
+    }
+
+    // what a measurement leaves of a prior that is a hundred thousand times as wide, and a column of rounding
+    #[test]
+    fn a_small_pivot_that_loses_nothing_stays() {
+        for v in [[0.0, 0.0], [0.0, 1e-7], [1e-4_f32, 1e-4]] {
+            let (mut l, mut column) = ([1.0_f32, 0.0, 1.0, 1e-5], v);
+            assert!(super::downdate(&mut l, 2, 2, &mut column).failed().is_none());
+            assert!((l[3] / 1e-5 - 1.0).abs() < 1e-3, "{v:?}: {l:?}");
+        }
     }
 
     // a position known but for its way within a short gap, whose points' rounding is larger than that, and its speed

@@ -10,8 +10,9 @@ outlined! {
     /// `v` (length n) is used up, and the triangle above the diagonal, which must be zero, stays so. The square of pivot k
     /// is r² = L_kk² − v_k², known to τ = e max(L_kk, |v_k|), where e is 64 ε ‖row k‖ and what the errors of the rows
     /// above have made of it: below −τ it is the failure that health names; within τ of zero the column is zero and the
-    /// downdate ends. A pivot that v_k is less than half of loses nothing by it, however small it is, and goes on. Where L_kk and v_k are themselves zero to rounding, or their squares are and what stands below them differs,
-    /// what stands below L_kk is rotated into the columns after it, and the downdate goes on with the next row.
+    /// downdate ends. A pivot that v_k is less than half of loses nothing by it, however small it is, and goes on. Where L_kk
+    /// and v_k are themselves zero to rounding, or their squares are and what stands below them differs, what stands below L_kk
+    /// is rotated into the columns after it, and the downdate goes on with the next row.
     ///
     /// ```
     /// use givens_core::kernels::downdate;

@@ -18,7 +18,7 @@ pub fn consistency<'py>(
 ) -> Result<Bound<'py, PyDict>> {
     length("nis_dof", "degrees of freedom", nis.len(), nis_dof.len())?;
     let mut rows = Estimates::default();
-    rows.nis = numbers(&nis);
+    rows.nis = numbers(&nis)?;
     for &dof in nis_dof.as_array() {
         let negative = |_| Input::new("nis_dof", format!("{dof} degrees of freedom"));
         rows.nis_dof.push(usize::try_from(dof).map_err(negative)?);
@@ -52,7 +52,7 @@ pub fn accuracy<'py>(
     };
     let cov = shaped("cov", &cov, &[k, n, n])?;
     let truth = shaped("truth", &truth, &[k, n])?;
-    let of = Accuracy::of_rows(n, &numbers(&mean), &cov, &truth);
+    let of = Accuracy::of_rows(n, &numbers(&mean)?, &cov, &truth);
     let all = PyDict::new(py);
     all.set_item("rmse", frozen(py, of.rmse, &[n])?)?;
     all.set_item("coverage", frozen(py, of.coverage, &[n])?)?;

@@ -7,11 +7,20 @@ use pyo3::prelude::*;
 use crate::errors::{Input, Result};
 
 /// The numbers of an array, row by row, however they lie in memory.
-pub fn numbers(array: &PyReadonlyArrayDyn<'_, f64>) -> Vec<f64> {
-    match array.as_slice() {
-        Ok(slice) => slice.to_vec(),
-        Err(_) => array.as_array().iter().copied().collect(),
+///
+/// # Errors
+/// More than there is memory for: an array may repeat one number without end, and take none itself.
+pub fn numbers(array: &PyReadonlyArrayDyn<'_, f64>) -> Result<Vec<f64>> {
+    let mut values = Vec::new();
+    if values.try_reserve_exact(array.len()).is_err() {
+        let message = format!("an array of {} numbers is longer than there is memory for", array.len());
+        return Err(Input::plain(message).into());
     }
+    match array.as_slice() {
+        Ok(slice) => values.extend_from_slice(slice),
+        Err(_) => values.extend(array.as_array().iter()),
+    }
+    Ok(values)
 }
 
 /// The numbers of an argument that must have this shape.
@@ -21,7 +30,7 @@ pub fn shaped(
     shape: &[usize],
 ) -> Result<Vec<f64>> {
     if array.shape() == shape {
-        return Ok(numbers(array));
+        return numbers(array);
     }
     let message = format!("`{argument}` has shape {}, not {}", tuple(array.shape()), tuple(shape));
     Err(Input::new(argument, message).into())

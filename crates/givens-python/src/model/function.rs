@@ -5,6 +5,7 @@ use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 
 use crate::errors::{Input, Result};
+use crate::listed::Listed;
 use crate::numbers::tuple;
 use crate::watch;
 
@@ -84,11 +85,16 @@ impl Function {
     #[staticmethod]
     #[pyo3(signature = (address, owner, *, step=false, parameters=None))]
     #[allow(unsafe_code)]
-    fn address(address: usize, owner: Py<PyAny>, step: bool, parameters: Option<Vec<usize>>) -> Result<Self> {
+    fn address(
+        address: usize,
+        owner: Py<PyAny>,
+        step: bool,
+        parameters: Option<Listed<usize>>,
+    ) -> Result<Self> {
         if address == 0 {
             return Err(Input::new("address", "the address of the function is null").into());
         }
-        let owner = Owned { owner, parameters: parameters.map(Vec::into_boxed_slice) };
+        let owner = Owned { owner, parameters: parameters.map(|all| all.0.into_boxed_slice()) };
         let pointer = core::ptr::without_provenance::<()>(address);
         // SAFETY: the address is not null, and the user says that a function of this signature stands there: nothing else
         // can be known about it. The owner keeps it there.

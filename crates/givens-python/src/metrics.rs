@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::errors::{Input, Result, length};
-use crate::numbers::{frozen, numbers, shaped};
+use crate::numbers::{aligned, frozen, numbers, shaped};
 
 /// The NIS of rows against its χ² band; see the stub.
 #[pyfunction]
@@ -17,6 +17,9 @@ pub fn consistency<'py>(
     nis_dof: PyReadonlyArrayDyn<'py, i64>,
 ) -> Result<Bound<'py, PyDict>> {
     length("nis_dof", "degrees of freedom", nis.len(), nis_dof.len())?;
+    if !aligned(&nis_dof) {
+        return Err(Input::new("nis_dof", "an array that is not aligned in memory").help("give a copy of it").into());
+    }
     let mut rows = Estimates::default();
     rows.nis = numbers(&nis)?;
     for &dof in nis_dof.as_array() {

@@ -1,7 +1,9 @@
 //! Arrays of NumPy and plain memory.
 
-use numpy::ndarray::{ArrayD, IxDyn};
-use numpy::{PyArray1, PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArrayMethods};
+use numpy::ndarray::{ArrayD, Dimension, IxDyn};
+use numpy::{
+    Element, PyArray1, PyArrayDyn, PyArrayMethods, PyReadonlyArray, PyReadonlyArrayDyn, PyUntypedArrayMethods,
+};
 use pyo3::prelude::*;
 
 use crate::errors::{Input, Result};
@@ -16,11 +18,22 @@ pub fn numbers(array: &PyReadonlyArrayDyn<'_, f64>) -> Result<Vec<f64>> {
         let message = format!("an array of {} numbers is longer than there is memory for", array.len());
         return Err(Input::plain(message).into());
     }
+    if !aligned(array) {
+        // such as a part of a buffer of bytes; Rust must not look at it
+        return numbers(&array.call_method0("copy")?.extract()?);
+    }
     match array.as_slice() {
         Ok(slice) => values.extend_from_slice(slice),
         Err(_) => values.extend(array.as_array().iter()),
     }
     Ok(values)
+}
+
+/// Whether all numbers of an array lie where memory may be read as such.
+pub fn aligned<T: Element, D: Dimension>(array: &PyReadonlyArray<'_, T, D>) -> bool {
+    let to = align_of::<T>();
+    let strides = array.strides().iter().all(|stride| stride.unsigned_abs() % to == 0);
+    strides && (array.data() as usize).is_multiple_of(to)
 }
 
 /// The numbers of an argument that must have this shape.

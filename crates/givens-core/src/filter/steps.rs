@@ -65,7 +65,8 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
             self.one_step((at, T::of(at)), (dt, T::of(dt)), k > 0)?;
         }
         self.time = t;
-        self.step += usize::from(count > 0);
+        // a snapshot may bring any number
+        self.step = self.step.saturating_add(usize::from(count > 0));
         Ok(())
     }
 
@@ -277,7 +278,7 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
         }
         self.present = present;
         self.moved &= present == 0 || gated;
-        self.step += 1;
+        self.step = self.step.saturating_add(1);
         Ok(sick)
     }
 

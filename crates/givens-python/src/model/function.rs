@@ -6,7 +6,7 @@ use pyo3::prelude::*;
 
 use crate::errors::{Input, Result};
 use crate::listed::Listed;
-use crate::numbers::tuple;
+use crate::numbers::{numbers, tuple};
 use crate::watch;
 
 /// void f(double t, const double *x, const double *p, double *out)
@@ -182,6 +182,6 @@ fn python(
         let help = "it is called with all points at once: x[i] is component i of all of them";
         return Err(Input::plain(message).help(help).into());
     }
-    out.iter_mut().zip(values.as_array().iter()).for_each(|(to, from)| *to = *from);
+    out.copy_from_slice(&numbers(&values)?);
     Ok(())
 }

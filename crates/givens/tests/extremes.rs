@@ -4,7 +4,7 @@
 
 use givens::filter::{Carried, Fault, Filter, Gaussian, InvalidCovariance, Method, Over, Quantity, SrCkf};
 use givens::filter::{SrEkf, StepError, factor_of_covariance};
-use givens::metrics::nees;
+use givens::metrics::{chi_squared_band, chi_squared_cdf, chi_squared_quantile, nees};
 use givens::model::zoo::{CoordinatedTurn, RangeBearing, Turn3d};
 use givens::model::{At, Noise, Observation, Transition};
 use givens::ode::Steps;
@@ -170,4 +170,32 @@ fn simulation_refuses_lengths_that_are_not_the_models() {
     assert_eq!(refused(&rows(2, 0), 4), ("the prior", 5, 4));
     assert_eq!(refused(&rows(3, 0), 5), ("measurement", 2, 3));
     assert_eq!(refused(&rows(2, 1), 5), ("controls", 0, 1));
+}
+
+#[test]
+fn quantiles_of_more_freedom_than_has_digits_are_none() {
+    assert!(chi_squared_quantile(1e300, 0.5).is_nan() && chi_squared_cdf(1e11, 1e11).is_nan());
+    assert!(chi_squared_band(f64::INFINITY).0.is_nan());
+    let (low, high) = chi_squared_band(1e8);
+    // a normal variable of variance 2 dof
+    assert!((low - (1e8 - 1.959964 * 2e8_f64.sqrt())).abs() < 10.0 && high > 1e8, "{low} {high}");
+}
+
+/// A root of two states whose rows, of the largest numbers, a rotation cannot keep.
+#[test]
+fn a_posterior_that_overflows_is_an_error_and_the_belief_as_before() {
+    let turn = Still;
+    let first = SrEkf::default().start(&turn, 0.0, &unit(2)).unwrap();
+    let huge = [1.5e308, 0.0, 1.5e308, 1.5e308];
+    let carried = Carried { factor: &huge, ..first.carried() };
+    let sizes = SrEkf::default().sizes(&turn).unwrap();
+    let memory =
+        vec![0.0; Filter::<SrEkf, Still, f64, Vec<f64>>::memory_len(&SrEkf::default(), sizes, false)];
+    let mut filter = Filter::resume_in(SrEkf::default(), &turn, sizes, false, carried, memory).unwrap();
+    for z in [0.0, 1e300] {
+        if filter.update(&Steep, &[z]).is_err() {
+            assert_eq!(filter.factor(), huge);
+        }
+        assert!(filter.mean().iter().chain(filter.factor()).all(|x| x.is_finite()));
+    }
 }

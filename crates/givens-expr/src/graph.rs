@@ -180,6 +180,20 @@ impl Graph {
         inputs.collect()
     }
 
+    /// Which of several nodes depend on no other inputs than those that `may` accepts.
+    pub fn depend_only_on(&self, nodes: &[Node], may: impl Fn(Input) -> bool) -> Vec<bool> {
+        let order = self.reachable(nodes);
+        let mut does = vec![false; order.last().map_or(0, |node| node.index() + 1)];
+        for node in order {
+            let op = self.op(node);
+            does[node.index()] = match op {
+                Op::Input(input) => may(input),
+                _ => op.operands().all(|operand| does[operand.index()]),
+            };
+        }
+        nodes.iter().map(|node| does.get(node.index()).copied().unwrap_or(true)).collect()
+    }
+
     pub(crate) fn op(&self, node: Node) -> Op {
         self.ops.get(node.index()).copied().unwrap_or(Op::Constant(f64::NAN.to_bits()))
     }

@@ -1,6 +1,6 @@
 //! Collects errors, so that one reading tells all that is wrong.
 
-use core::cell::RefCell;
+use core::cell::{Cell, RefCell};
 use core::ops::Range;
 
 use crate::error::{InputError, InputErrors};
@@ -10,43 +10,60 @@ use crate::source::Source;
 pub(crate) struct Findings<'a> {
     pub source: &'a Source,
     errors: RefCell<Vec<InputError>>,
-    more: core::cell::Cell<usize>,
+    /// Bytes of the lines that they show.
+    shown: Cell<usize>,
+    more: Cell<usize>,
 }
 
 /// Errors that are kept; of those beyond only the number is told.
 const KEPT: usize = 100;
 
+/// Bytes of lines that errors show, if there are several: a line may be as long as its file.
+const SHOWN: usize = 1 << 20;
+
 impl<'a> Findings<'a> {
     pub fn new(source: &'a Source) -> Self {
-        Self { source, errors: RefCell::default(), more: core::cell::Cell::new(0) }
+        Self { source, errors: RefCell::default(), shown: Cell::new(0), more: Cell::new(0) }
     }
 
     pub fn push(&self, error: InputError) {
-        let mut errors = self.errors.borrow_mut();
-        if errors.len() < KEPT {
-            errors.push(error);
-        } else {
-            self.more.set(self.more.get() + 1);
+        self.push_with(|| error);
+    }
+
+    /// An error is made only where there is room: each shows its line, and there may be as many as there are characters.
+    fn push_with(&self, error: impl FnOnce() -> InputError) {
+        if !self.room() {
+            return self.more.set(self.more.get() + 1);
         }
+        let error = error();
+        self.shown.set(self.shown.get() + error.place.as_ref().map_or(0, |place| place.source.len()));
+        self.errors.borrow_mut().push(error);
     }
 
     /// Whether there is room for more errors; those beyond are only counted.
     pub fn room(&self) -> bool {
-        self.errors.borrow().len() < KEPT
+        self.errors.borrow().len() < KEPT && self.shown.get() < SHOWN
     }
 
     pub fn wrong(&self, span: &Range<usize>, message: impl Into<String>) {
-        self.push(self.source.error(span.clone(), message));
+        self.push_with(|| self.source.error(span.clone(), message));
     }
 
     pub fn wrong_help(&self, span: &Range<usize>, message: impl Into<String>, help: impl Into<String>) {
-        self.push(self.source.error(span.clone(), message).with_help(help));
+        self.push_with(|| self.source.error(span.clone(), message).with_help(help));
+    }
+
+    /// An error and its remedy, where it takes long to find the remedy.
+    pub fn wrong_by(&self, span: &Range<usize>, told: impl FnOnce() -> (String, String)) {
+        self.push_with(|| {
+            let (message, help) = told();
+            self.source.error(span.clone(), message).with_help(help)
+        });
     }
 
     /// [`Self::wrong`] with a remedy where there is one.
     pub fn wrong_maybe(&self, span: &Range<usize>, message: impl Into<String>, help: Option<String>) {
-        let error = self.source.error(span.clone(), message);
-        self.push(InputError { help, ..error });
+        self.push_with(|| InputError { help, ..self.source.error(span.clone(), message) });
     }
 
     pub fn none(&self) -> bool {

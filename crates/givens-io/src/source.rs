@@ -26,15 +26,25 @@ impl Source {
 
     /// Reads a file, or standard input for `-`.
     pub fn read(path: &str) -> Result<Self, InputError> {
+        Self::read_up_to(path, u64::MAX)
+    }
+
+    /// The same, of at most so many bytes: what is behind them is not looked at.
+    pub fn read_up_to(path: &str, most: u64) -> Result<Self, InputError> {
         let name = if path == "-" { "standard input" } else { path };
         let whole = Location { file: name.to_string(), place: None };
-        let bytes = if path == "-" {
-            let mut bytes = Vec::new();
-            std::io::stdin().lock().read_to_end(&mut bytes).map(|_| bytes)
+        let mut bytes = Vec::new();
+        let done = if path == "-" {
+            std::io::stdin().lock().take(most).read_to_end(&mut bytes)
         } else {
-            std::fs::read(path)
+            // the length is asked for as much memory at once, where there is one
+            std::fs::File::open(path).and_then(|file| {
+                let length = file.metadata().map_or(0, |about| about.len()).min(most);
+                bytes.try_reserve(usize::try_from(length).unwrap_or(0))?;
+                file.take(most).read_to_end(&mut bytes)
+            })
         };
-        let bytes = bytes.map_err(|error| whole.error(unreadable(&error)))?;
+        done.map_err(|error| whole.error(unreadable(&error)))?;
         match String::from_utf8(bytes) {
             Ok(text) => Ok(Self::new(name, text)),
             Err(error) => {

@@ -7,6 +7,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::errors::Input as Refused;
+use crate::listed::Listed;
 use crate::numbers::numbers;
 
 /// Expressions in which equal subexpressions are one node, known by its number.
@@ -171,7 +172,7 @@ impl Graph {
     fn evaluate<'py>(
         &self,
         py: Python<'py>,
-        nodes: Vec<u32>,
+        nodes: Listed<u32>,
         x: PyReadonlyArrayDyn<'py, f64>,
         t: f64,
         dt: f64,
@@ -180,7 +181,7 @@ impl Graph {
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
         let nodes = self.nodes(&nodes)?;
         let program = Program::compile(&self.graph, &nodes).map_err(|error| too_many(error.to_string()))?;
-        let (x, u, p) = (numbers(&x), numbers(&u), numbers(&p));
+        let (x, u, p) = (numbers(&x)?, numbers(&u)?, numbers(&p)?);
         let at = At { t, dt, u: &u, p: &p };
         Ok(program.values(&Inputs { at, x: &x, z: &[] }).into_pyarray(py))
     }

@@ -10,6 +10,7 @@ mod estimates;
 mod failure;
 mod filter;
 mod graph;
+mod listed;
 mod memory;
 mod metrics;
 mod model;

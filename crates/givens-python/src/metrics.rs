@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::errors::{Input, Result, length};
-use crate::numbers::{frozen, numbers, shaped};
+use crate::numbers::{aligned, frozen, numbers, shaped};
 
 /// The NIS of rows against its χ² band; see the stub.
 #[pyfunction]
@@ -17,8 +17,11 @@ pub fn consistency<'py>(
     nis_dof: PyReadonlyArrayDyn<'py, i64>,
 ) -> Result<Bound<'py, PyDict>> {
     length("nis_dof", "degrees of freedom", nis.len(), nis_dof.len())?;
+    if !aligned(&nis_dof) {
+        return Err(Input::new("nis_dof", "an array that is not aligned in memory").help("give a copy of it").into());
+    }
     let mut rows = Estimates::default();
-    rows.nis = numbers(&nis);
+    rows.nis = numbers(&nis)?;
     for &dof in nis_dof.as_array() {
         let negative = |_| Input::new("nis_dof", format!("{dof} degrees of freedom"));
         rows.nis_dof.push(usize::try_from(dof).map_err(negative)?);
@@ -52,7 +55,7 @@ pub fn accuracy<'py>(
     };
     let cov = shaped("cov", &cov, &[k, n, n])?;
     let truth = shaped("truth", &truth, &[k, n])?;
-    let of = Accuracy::of_rows(n, &numbers(&mean), &cov, &truth);
+    let of = Accuracy::of_rows(n, &numbers(&mean)?, &cov, &truth);
     let all = PyDict::new(py);
     all.set_item("rmse", frozen(py, of.rmse, &[n])?)?;
     all.set_item("coverage", frozen(py, of.coverage, &[n])?)?;

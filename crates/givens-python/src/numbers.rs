@@ -1,17 +1,39 @@
 //! Arrays of NumPy and plain memory.
 
-use numpy::ndarray::{ArrayD, IxDyn};
-use numpy::{PyArray1, PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArrayMethods};
+use numpy::ndarray::{ArrayD, Dimension, IxDyn};
+use numpy::{
+    Element, PyArray1, PyArrayDyn, PyArrayMethods, PyReadonlyArray, PyReadonlyArrayDyn, PyUntypedArrayMethods,
+};
 use pyo3::prelude::*;
 
 use crate::errors::{Input, Result};
 
 /// The numbers of an array, row by row, however they lie in memory.
-pub fn numbers(array: &PyReadonlyArrayDyn<'_, f64>) -> Vec<f64> {
-    match array.as_slice() {
-        Ok(slice) => slice.to_vec(),
-        Err(_) => array.as_array().iter().copied().collect(),
+///
+/// # Errors
+/// More than there is memory for: an array may repeat one number without end, and take none itself.
+pub fn numbers(array: &PyReadonlyArrayDyn<'_, f64>) -> Result<Vec<f64>> {
+    let mut values = Vec::new();
+    if values.try_reserve_exact(array.len()).is_err() {
+        let message = format!("an array of {} numbers is longer than there is memory for", array.len());
+        return Err(Input::plain(message).into());
     }
+    if !aligned(array) {
+        // such as a part of a buffer of bytes; Rust must not look at it
+        return numbers(&array.call_method0("copy")?.extract()?);
+    }
+    match array.as_slice() {
+        Ok(slice) => values.extend_from_slice(slice),
+        Err(_) => values.extend(array.as_array().iter()),
+    }
+    Ok(values)
+}
+
+/// Whether all numbers of an array lie where memory may be read as such.
+pub fn aligned<T: Element, D: Dimension>(array: &PyReadonlyArray<'_, T, D>) -> bool {
+    let to = align_of::<T>();
+    let strides = array.strides().iter().all(|stride| stride.unsigned_abs() % to == 0);
+    strides && (array.data() as usize).is_multiple_of(to)
 }
 
 /// The numbers of an argument that must have this shape.
@@ -21,7 +43,7 @@ pub fn shaped(
     shape: &[usize],
 ) -> Result<Vec<f64>> {
     if array.shape() == shape {
-        return Ok(numbers(array));
+        return numbers(array);
     }
     let message = format!("`{argument}` has shape {}, not {}", tuple(array.shape()), tuple(shape));
     Err(Input::new(argument, message).into())

@@ -116,7 +116,7 @@ pub fn goal(word: &str, value: Option<f64>, time: &[f64], t0: f64) -> Result<Goa
 /// Times at which states are asked for, increasing from `t0` on.
 pub fn times(at: &Numbers<'_>, t0: f64) -> Result<Vec<f64>> {
     length("at", "dimensions of `at`", 1, at.ndim())?;
-    let at = numbers(at);
+    let at = numbers(at)?;
     let mut last = t0;
     for (k, &t) in at.iter().enumerate() {
         if !(t.is_finite() && t >= last) {

@@ -11,6 +11,7 @@ use crate::crowd::{Ended, aside, each, threads};
 use crate::errors::Result;
 use crate::estimates::Estimates;
 use crate::failure::noted;
+use crate::listed::Listed;
 use crate::memory::room_for_rows;
 use crate::model::{Model, Moves};
 use crate::numbers::numbers;
@@ -46,7 +47,7 @@ impl Job {
         model.serves(&choice.0)?;
         let prior = belief(model, mean, cov)?;
         let data = rows(model, t0, time, z, u)?;
-        let goal = self::goal(goal, value, &numbers(time), data.start())?;
+        let goal = self::goal(goal, value, &numbers(time)?, data.start())?;
         let at = at.map(|at| times(at, data.start())).transpose()?;
         Ok(Self { model: model.clone(), choice: choice.0, prior, data, goal, at })
     }
@@ -126,7 +127,7 @@ type Track<'py> = (
 #[pyo3(signature = (tracks, goal="filter", goal_value=None, threads=None))]
 pub fn run_batch<'py>(
     py: Python<'py>,
-    tracks: Vec<Track<'py>>,
+    tracks: Listed<Track<'py>>,
     goal: &str,
     goal_value: Option<f64>,
     threads: Option<usize>,

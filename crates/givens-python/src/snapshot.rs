@@ -78,7 +78,7 @@ pub fn read(model: &Model, snapshot: &Bound<'_, PyDict>) -> Result<(Snapshot, Le
         let missing = || Input::new("snapshot", format!("the snapshot has no `{key}`"));
         Ok(snapshot.get_item(key)?.ok_or_else(missing)?)
     };
-    let array = |key: &str| -> Result<Vec<f64>> { Ok(numbers(&item(key)?.extract::<Numbers<'_>>()?)) };
+    let array = |key: &str| -> Result<Vec<f64>> { numbers(&item(key)?.extract::<Numbers<'_>>()?) };
     let (d, controls) = (model.measures(), item("controls")?);
     let (calls, jacobians, accepted, rejected) = item("work")?.extract()?;
     let carried = Snapshot {

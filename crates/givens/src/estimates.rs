@@ -140,8 +140,10 @@ impl Estimates {
     /// ```
     pub const fn row_bytes(states: usize, measures: usize, smoothed: bool) -> usize {
         let (vectors, matrices) = if smoothed { (3, 4) } else { (2, 3) };
-        let belief = vectors * states + matrices * states * states;
-        size_of::<f64>() * (4 + belief + measures + measures * measures) + size_of::<bool>()
+        let belief = states.saturating_mul(states.saturating_mul(matrices).saturating_add(vectors));
+        let innovation = measures.saturating_mul(measures.saturating_add(1));
+        let floats = belief.saturating_add(innovation).saturating_add(4);
+        floats.saturating_mul(size_of::<f64>()).saturating_add(size_of::<bool>())
     }
 
     /// Number of rows.

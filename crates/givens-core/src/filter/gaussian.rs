@@ -64,9 +64,10 @@ impl core::error::Error for InvalidCovariance {}
 /// # Errors
 /// What makes it no covariance, and where.
 pub fn factor_of_covariance<T: Real>(cov: &[T], n: usize, factor: &mut [T]) -> Result<(), InvalidCovariance> {
-    for of in [cov.len(), factor.len()] {
-        if of != n * n {
-            return Err(InvalidCovariance::Length { expected: n * n, found: of });
+    let expected = n.saturating_mul(n);
+    for found in [cov.len(), factor.len()] {
+        if found != expected {
+            return Err(InvalidCovariance::Length { expected, found });
         }
     }
     for row in 0..n {

@@ -7,6 +7,11 @@ pub(crate) const fn larger(a: usize, b: usize) -> usize {
     if a > b { a } else { b }
 }
 
+/// So many vectors of length n, and matrices n × n; the largest number where there are not so many scalars.
+pub(crate) const fn vectors_and_matrices(n: usize, vectors: usize, matrices: usize) -> usize {
+    n.saturating_mul(vectors.saturating_add(n.saturating_mul(matrices)))
+}
+
 /// The length of a row of that many columns with which it fills whole packs.
 pub(crate) const fn whole_packs(columns: usize) -> usize {
     columns.saturating_add(LANES - 1) / LANES * LANES

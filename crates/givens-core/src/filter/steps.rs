@@ -65,7 +65,7 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
             self.one_step((at, T::of(at)), (dt, T::of(dt)), k > 0)?;
         }
         self.time = t;
-        self.step += usize::from(count > 0);
+        self.step = self.step.saturating_add(usize::from(count > 0));
         Ok(())
     }
 
@@ -266,7 +266,7 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
         if gated {
             scores[1] = T::zero();
         } else if let Some(posterior) = updated.posterior {
-            match judge(before, posterior.factor, updated.exact, floor) {
+            match posterior.finite().and_then(|()| judge(before, posterior.factor, updated.exact, floor)) {
                 Ok(more) => sick = sick | more,
                 Err(fault) => {
                     scores.fill(T::zero());
@@ -277,7 +277,7 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
         }
         self.present = present;
         self.moved &= present == 0 || gated;
-        self.step += 1;
+        self.step = self.step.saturating_add(1);
         Ok(sick)
     }
 

@@ -62,7 +62,7 @@ pub(super) fn adaptive<T: Real, S: System, M: Method<T, S>>(
                     visit(&Segment { t: stop.time, h: sign * h, start: y, end, curve });
                 }
                 y.copy_from_slice(end);
-                work.accepted += 1;
+                work.accepted = work.accepted.saturating_add(1);
                 if last {
                     return Ok(());
                 }
@@ -81,7 +81,7 @@ pub(super) fn adaptive<T: Real, S: System, M: Method<T, S>>(
                 h = control.failed(h);
             }
         }
-        work.rejected += 1;
+        work.rejected = work.rejected.saturating_add(1);
     }
     Err(Stop { why: Why::StepLimit { limit: bounds.limit }, ..stop })
 }

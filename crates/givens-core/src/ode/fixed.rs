@@ -58,7 +58,7 @@ impl<T: Real, S: System, M: Method<T, S>> Inside for Fixed<'_, '_, '_, T, S, M> 
                 visit(&Segment { t: time(k).first(), h: h.first(), start: y, end, curve });
             }
             y.copy_from_slice(end);
-            work.accepted += 1;
+            work.accepted = work.accepted.saturating_add(1);
             if let (Some(Err(failed)), false) = (slope, last) {
                 return Err(stop(k + 1, failed.into()));
             }

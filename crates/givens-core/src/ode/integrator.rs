@@ -245,7 +245,7 @@ impl Integrator {
             None => {
                 let mut method = Rosenbrock::new(system, at, table, rest);
                 let done = adaptive(&mut method, &mut field, at, &bounds, y, visit, work, memory);
-                work.jacobians += method.jacobians;
+                work.jacobians = work.jacobians.saturating_add(method.jacobians);
                 done
             }
             Some(tableau) => {
@@ -270,7 +270,7 @@ impl Integrator {
                 }
             }
         };
-        work.calls += field.calls;
+        work.calls = work.calls.saturating_add(field.calls);
         done
     }
 }

@@ -6,7 +6,7 @@ use crate::kernels::{add_outer, cholesky_scaled, outlined};
 use crate::scalar::Real;
 
 use crate::filter::lanes::lanes;
-use crate::filter::memory::take;
+use crate::filter::memory::{take, vectors_and_matrices};
 
 /// What was recorded of the time update from k to k + 1.
 #[derive(Clone, Copy, Debug)]
@@ -39,7 +39,7 @@ impl<'a, T> Passage<'a, T> {
 
 /// Scalars of scratch of [`step_back`].
 pub(super) const fn back_scratch(n: usize) -> usize {
-    4 * n * n + 2 * n
+    vectors_and_matrices(n, 2, 4)
 }
 
 /// mˢ_k = m_k + G_k (mˢ_{k+1} − m⁻_{k+1}): the mean-only backward pass (2011 §7, remark ii).

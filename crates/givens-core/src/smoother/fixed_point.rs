@@ -4,7 +4,7 @@ use super::back::symmetrise;
 use super::history::{OTHER_FORM, UNFOLLOWED, for_smoothing};
 use crate::filter::backward::{multiply, multiply_lower};
 use crate::filter::lanes::lanes;
-use crate::filter::memory::{put_columns, take};
+use crate::filter::memory::{put_columns, take, vectors_and_matrices};
 use crate::filter::{Fault, Filter, Form, Grow, Learnt, Matrix, Over, StepError};
 use crate::kernels::{add_outer, cholesky_scaled, copy_lower, square, tria};
 use crate::scalar::{Mask, Real};
@@ -60,7 +60,7 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> FixedPoint<T, B> {
     /// Scalars of memory for n `states`.
     #[must_use]
     pub const fn memory_len(states: usize) -> usize {
-        3 * states + 8 * states * states
+        vectors_and_matrices(states, 3, 8)
     }
 
     /// Begins at the filter's present time, with its belief; from then on this alone predicts with the filter, and a

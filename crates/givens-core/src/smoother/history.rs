@@ -3,7 +3,7 @@
 use super::back::back_scratch;
 use super::rotated::rotated_len;
 use crate::filter::backward::multiply;
-use crate::filter::memory::{larger, take};
+use crate::filter::memory::{larger, take, vectors_and_matrices};
 use crate::filter::{Fault, Filter, Form, Grow, Over, StepError};
 use crate::scalar::Real;
 use core::marker::PhantomData;
@@ -29,15 +29,15 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
     /// Scalars of one record of a filter of n states.
     #[must_use]
     pub const fn record_len(states: usize) -> usize {
-        2 * states + 3 * states * states
+        vectors_and_matrices(states, 2, 3)
     }
 
     /// Scalars of memory for `capacity` records and the backward pass.
     #[must_use]
     pub const fn memory_len(states: usize, capacity: usize) -> usize {
-        let belief = states + 2 * states * states;
-        let (back, rotated) = (back_scratch(states), rotated_len(states));
-        capacity * Self::record_len(states) + belief + larger(back, rotated)
+        let belief = vectors_and_matrices(states, 1, 2);
+        let beside = belief.saturating_add(larger(back_scratch(states), rotated_len(states)));
+        capacity.saturating_mul(Self::record_len(states)).saturating_add(beside)
     }
 
     /// A history for filters of n `states`; it holds as many records as `memory` has room for.

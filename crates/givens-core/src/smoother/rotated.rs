@@ -2,7 +2,7 @@
 
 use crate::filter::backward::{multiply, multiply_lower};
 use crate::filter::lanes::spoil;
-use crate::filter::memory::{put_columns, take};
+use crate::filter::memory::{put_columns, take, vectors_and_matrices};
 use crate::filter::{Belief, Learnt};
 use crate::kernels::{copy_lower, outlined, tria};
 use crate::scalar::Real;
@@ -37,7 +37,7 @@ impl<'a, T> Rotated<'a, T> {
 
 /// Scalars of the coordinates on their way back, with the scratch of a step.
 pub(super) const fn rotated_len(n: usize) -> usize {
-    n + n * n + 3 * n * n + n
+    vectors_and_matrices(n, 2, 4)
 }
 
 /// N(mean, root rootᵀ) of the coordinates u.

@@ -26,7 +26,7 @@ pub(super) struct Context<'a> {
 
 impl Context<'_> {
     pub fn scope(&self, role: Role) -> Scope {
-        self.vocabulary.scope(&self.graph, role)
+        self.vocabulary.scope(role)
     }
 
     /// Reads a number or an expression; what is wrong is found so.
@@ -50,18 +50,22 @@ impl Context<'_> {
 
     /// The value of a node that is the same at every time.
     pub fn known(&self, node: Node) -> Option<f64> {
-        if let Some(number) = self.graph.constant_value(node) {
-            return Some(number);
-        }
-        let fixed = |input: &Input| match input {
+        self.all_known(&[node]).first().copied().flatten()
+    }
+
+    /// The values of those nodes that are the same at every time, in one go: there may be a million of them.
+    pub fn all_known(&self, nodes: &[Node]) -> Vec<Option<f64>> {
+        let fixed = |input: Input| match input {
             Input::Parameter(_) => true,
             Input::Step => self.step.is_some(),
             _ => false,
         };
-        self.graph.inputs_of(node).iter().all(fixed).then(|| {
-            let moment = Moment { t: 0.0, dt: self.step.unwrap_or(0.0), u: &[] };
-            self.at(&moment, &[node]).first().copied().unwrap_or(f64::NAN)
-        })
+        let same = self.graph.depend_only_on(nodes, fixed);
+        let pick = |(&node, &same): (&Node, &bool)| same.then_some(node);
+        let known: Vec<Node> = nodes.iter().zip(&same).filter_map(pick).collect();
+        let moment = Moment { t: 0.0, dt: self.step.unwrap_or(0.0), u: &[] };
+        let mut values = self.at(&moment, &known).into_iter();
+        same.into_iter().map(|same| if same { values.next() } else { None }).collect()
     }
 
     /// The values of nodes at a moment.

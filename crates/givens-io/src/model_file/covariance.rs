@@ -76,14 +76,23 @@ fn entries(
     let n = names.len().max(1);
     let mut nodes = Vec::with_capacity(rows.len());
     for (k, value) in rows.iter().enumerate() {
-        let what = format!("row {}, column {} of {what}", k / n + 1, k % n + 1);
-        let node = context.expression(scope, value, &what);
-        let known = node.and_then(|node| context.known(node));
-        let good = known.is_none_or(|number| context.finite(number, &value.span, &what));
-        nodes.push(node.filter(|_| good));
+        nodes.push(context.expression(scope, value, &format!("{} of {what}", place(k, n))));
     }
-    let nodes = nodes.into_iter().collect::<Option<Vec<Node>>>()?;
+    let read: Vec<Node> = nodes.iter().copied().flatten().collect();
+    let mut known = context.all_known(&read).into_iter();
+    let mut good = true;
+    for (k, value) in rows.iter().enumerate().filter(|(k, _)| nodes[*k].is_some()) {
+        if let Some(number) = known.next().flatten().filter(|number| !number.is_finite()) {
+            good = context.finite(number, &value.span, &format!("{} of {what}", place(k, n)));
+        }
+    }
+    let nodes = nodes.into_iter().collect::<Option<Vec<Node>>>().filter(|_| good)?;
     Some(Matrix { nodes, spans: rows.iter().map(|value| value.span.clone()).collect() })
+}
+
+/// Where an entry stands in a matrix of `n` columns.
+fn place(k: usize, n: usize) -> String {
+    format!("row {}, column {}", k / n + 1, k % n + 1)
 }
 
 /// Moments at which matrices that depend on time, step and controls are compared with their transposes.
@@ -162,8 +171,7 @@ impl Check<'_, '_> {
 
     /// A matrix whose entries are all known must be a covariance.
     fn semidefinite(&self) -> bool {
-        let known: Option<Vec<f64>> =
-            self.matrix.nodes.iter().map(|&node| self.context.known(node)).collect();
+        let known: Option<Vec<f64>> = self.context.all_known(&self.matrix.nodes).into_iter().collect();
         let Some(mut values) = known else { return true };
         let Some(pivot) = cholesky(&mut values, self.n()).failed() else { return true };
         let message = format!(

@@ -101,7 +101,7 @@ impl Model {
     /// # Errors
     /// As [`read`](Self::read); also for a parameter that the model lacks.
     pub fn read_with(path: &str, parameters: &[(&str, f64)]) -> Result<Self, InputErrors> {
-        read::model(&Source::read(path)?, parameters)
+        read::model(&Source::read_up_to(path, read::LONGEST + 1)?, parameters)
     }
 
     /// Reads a model from text; errors call it `name`.

@@ -17,9 +17,18 @@ use crate::source::Source;
 /// Sections of a model file.
 const SECTIONS: &[&str] = &["state", "parameters", "let", "dynamics", "sensor", "plot", "filter"];
 
+/// Bytes of the longest model file. Its tree takes up to a hundred times as much memory, and each byte about a
+/// microsecond, whatever it says.
+pub(super) const LONGEST: u64 = 8 << 20;
+
 /// Reads a model, with the values of `given` for parameters.
 pub(super) fn model(source: &Source, given: &[(&str, f64)]) -> Result<Model, InputErrors> {
     let findings = Findings::new(source);
+    if source.text.len() as u64 > LONGEST {
+        let message = format!("the model file is longer than {} MiB", LONGEST >> 20);
+        let help = "write large matrices by expressions of parameters, with fewer digits, or as a model in Rust or Python";
+        return Err(source.whole(message).with_help(help).into());
+    }
     let model = document::read(&findings).and_then(|document| {
         for entry in document.iter().filter(|entry| !SECTIONS.contains(&entry.key.as_str())) {
             unknown_key(&findings, entry, "a model file", SECTIONS);

@@ -80,11 +80,13 @@ impl Named<'_> {
     pub fn index(&self, findings: &Findings, name: &str, span: &Range<usize>, place: &str) -> Option<usize> {
         let found = self.names.iter().position(|other| other == name);
         if found.is_none() {
-            let help = match suggest(name, self.names.iter().map(String::as_str)) {
-                Some(near) => format!("did you mean `{near}`?"),
-                None => format!("the {}s are {}", self.noun, self.all()),
-            };
-            findings.wrong_help(span, format!("unknown {} `{name}` in {place}", self.noun), help);
+            findings.wrong_by(span, || {
+                let help = match suggest(name, self.names.iter().map(String::as_str)) {
+                    Some(near) => format!("did you mean `{near}`?"),
+                    None => format!("the {}s are {}", self.noun, self.all()),
+                };
+                (format!("unknown {} `{name}` in {place}", self.noun), help)
+            });
         }
         found
     }

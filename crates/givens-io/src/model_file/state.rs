@@ -186,7 +186,7 @@ fn full(context: &mut Context, value: &Value, names: &[String], what: &str) -> O
     let scope = context.scope(Role::Fixed);
     let nodes = covariance(context, &scope, value, names, what)?;
     let n = names.len();
-    let mut matrix = nodes.into_iter().map(|node| context.known(node)).collect::<Option<Vec<f64>>>()?;
+    let mut matrix = context.all_known(&nodes).into_iter().collect::<Option<Vec<f64>>>()?;
     for i in 0..n {
         for j in 0..i {
             matrix[j * n + i] = matrix[i * n + j];

@@ -63,7 +63,8 @@ pub(super) fn broken(graph: &mut Graph) -> Node {
 /// All names of a model file with what they stand for.
 #[derive(Debug, Default)]
 pub(super) struct Vocabulary {
-    words: Vec<(String, Node)>,
+    /// Each with all that it depends on, which is looked for once: a definition may be long, and scopes are many.
+    words: Vec<(String, Node, BTreeSet<Input>)>,
     /// Names of measures, for `start`: each with its place in the stack, or none if sensors share it.
     measures: Vec<(String, Option<Node>)>,
 }
@@ -72,7 +73,7 @@ impl Vocabulary {
     /// Gives a name its meaning; a definition that was found wrong is none.
     pub fn define(&mut self, graph: &mut Graph, name: &str, node: Option<Node>) {
         let node = node.unwrap_or_else(|| broken(graph));
-        self.words.push((name.to_string(), node));
+        self.words.push((name.to_string(), node, graph.inputs_of(node)));
     }
 
     /// Gives `start` the name of a measure; a name that two sensors share is none's.
@@ -85,10 +86,10 @@ impl Vocabulary {
     }
 
     /// The names that may stand in a role, and why the others may not.
-    pub fn scope(&self, graph: &Graph, role: Role) -> Scope {
+    pub fn scope(&self, role: Role) -> Scope {
         let mut scope = Scope::new();
-        for (name, node) in &self.words {
-            scope.insert(name.as_str(), meaning(role, *node, &graph.inputs_of(*node)));
+        for (name, node, inputs) in &self.words {
+            scope.insert(name.as_str(), meaning(role, *node, inputs));
         }
         for (name, node) in self.measures.iter().filter(|_| role == Role::Start) {
             let taken = matches!(scope.get(name), Some(Meaning::Is(_)));
@@ -140,6 +141,11 @@ pub(super) fn expression_by(
     value: &Value,
     what: &str,
 ) -> Option<Node> {
+    // what was found is told, and a wrong name is compared with all others
+    if !findings.room() {
+        return None;
+    }
+    let broken = broken(graph);
     match &value.kind {
         Kind::Number(number) if number.is_finite() => Some(graph.constant(*number)),
         Kind::Number(_) => {
@@ -150,7 +156,7 @@ pub(super) fn expression_by(
             );
             None
         }
-        Kind::Text(text, _) if names(text).any(|(_, name)| is_broken(graph, scope, name)) => None,
+        Kind::Text(text, _) if names(text).any(|(_, name)| is(scope, name, broken)) => None,
         Kind::Text(text, _) => match read(graph, scope, text) {
             Ok(node) => Some(node),
             Err(error) => {
@@ -181,8 +187,9 @@ fn or_control(scope: &Scope, name: &str) -> String {
     if may && name.len() <= 40 { format!(" (a control would be `u_{name}`)") } else { String::new() }
 }
 
-fn is_broken(graph: &Graph, scope: &Scope, name: &str) -> bool {
-    matches!(scope.get(name), Some(Meaning::Is(node)) if is_broken_node(graph, *node))
+/// Whether a name stands for this node: a definition with a broken name is broken as a whole.
+fn is(scope: &Scope, name: &str, node: Node) -> bool {
+    matches!(scope.get(name), Some(Meaning::Is(of)) if *of == node)
 }
 
 /// Whether a node is made of what was found wrong.

@@ -135,11 +135,13 @@ fn sensor(
     let found = model.sensors.iter().position(|sensor| sensor.name == name);
     let names = || model.sensors.iter().map(|sensor| sensor.name.as_str());
     let Some(index) = found else {
-        let help = match suggest(name, names()) {
-            Some(near) => format!("did you mean `{near}`?"),
-            None => format!("the model has {}", list(names())),
-        };
-        findings.wrong_help(&fields.span(column), format!("unknown sensor `{}`", short(name)), help);
+        findings.wrong_by(&fields.span(column), || {
+            let help = match suggest(name, names()) {
+                Some(near) => format!("did you mean `{near}`?"),
+                None => format!("the model has {}", list(names())),
+            };
+            (format!("unknown sensor `{}`", short(name)), help)
+        });
         return Err(Found);
     };
     Ok(Some(index))

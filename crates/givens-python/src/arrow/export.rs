@@ -19,16 +19,17 @@ use pyo3::types::PyCapsule;
 
 use crate::arrow::import::STREAM;
 use crate::errors::{Input, Result};
+use crate::listed::Listed;
 use crate::numbers::numbers;
 
 /// A stream of one record batch; see the stub.
 #[pyfunction]
 pub fn arrow_stream<'py>(
     py: Python<'py>,
-    columns: Vec<(String, String, Bound<'py, PyAny>)>,
+    columns: Listed<(String, String, Bound<'py, PyAny>)>,
 ) -> Result<Bound<'py, PyCapsule>> {
     let (mut fields, mut arrays) = (Vec::new(), Vec::new());
-    for (name, kind, values) in &columns {
+    for (name, kind, values) in &*columns {
         let array = column(kind, values)?;
         fields.push(Field::new(name, array.data_type().clone(), true));
         arrays.push(array);
@@ -50,10 +51,10 @@ fn column(kind: &str, values: &Bound<'_, PyAny>) -> Result<ArrayRef> {
         None => (kind, None),
     };
     Ok(match kind {
-        "number" => Arc::new(floats(numbers(&values.extract::<PyReadonlyArrayDyn<'_, f64>>()?))),
+        "number" => Arc::new(floats(numbers(&values.extract::<PyReadonlyArrayDyn<'_, f64>>()?)?)),
         "whole" => Arc::new(Int64Array::from(integers(values)?)),
         "text" => {
-            let (words, rows): (Vec<String>, PyReadonlyArray1<'_, i64>) = values.extract()?;
+            let (words, rows): (Listed<String>, PyReadonlyArray1<'_, i64>) = values.extract()?;
             let rows = rows.as_array();
             let each = words.iter().zip(rows).flat_map(|(word, &rows)| (0..rows).map(move |_| word));
             Arc::new(LargeStringArray::from_iter_values(each))

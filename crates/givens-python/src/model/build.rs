@@ -14,13 +14,14 @@ use super::part::{Body, Part};
 use super::sensing::{self, Sensing};
 use crate::errors::{Input, Refusal, Result, length};
 use crate::graph::Graph;
+use crate::listed::Listed;
 
 /// A list of nodes of a graph, or a function that is called.
 #[derive(FromPyObject)]
 pub enum Given {
     /// Numbers of nodes.
     #[pyo3(transparent)]
-    Nodes(Vec<u32>),
+    Nodes(Listed<u32>),
     /// A function.
     #[pyo3(transparent)]
     Called(Py<Function>),
@@ -31,10 +32,10 @@ pub enum Given {
 #[pyo3(from_item_all)]
 pub struct SensorParts {
     pub name: String,
-    pub columns: Vec<String>,
+    pub columns: Listed<String>,
     pub measures: Given,
     #[pyo3(default)]
-    pub angles: Vec<Option<f64>>,
+    pub angles: Listed<Option<f64>>,
     #[pyo3(default)]
     pub std: Option<Given>,
     #[pyo3(default)]
@@ -180,7 +181,7 @@ impl Build<'_, '_> {
         if transition.is_called() || noise_cov.is_called() || jacobian.is_some() {
             let next = self.part("transition", transition, [n, 1], [true, true])?;
             let next = self.with_jacobian(next, jacobian);
-            let zeros = Given::Nodes(vec![self.graph.inner().constant(0.0).number(); n.saturating_mul(n)]);
+            let zeros = Given::Nodes(Listed(vec![self.graph.inner().constant(0.0).number(); n.saturating_mul(n)]));
             let noise_cov = if none { &zeros } else { noise_cov };
             let noise_cov = self.part("noise_cov", noise_cov, [n, n], [false, true])?;
             let (controls, parameters) = (self.controls, self.parameters.len());
@@ -213,7 +214,7 @@ impl Build<'_, '_> {
                 length("angles", &format!("the angles of sensor `{name}`"), k, sensor.angles.len())?;
             }
             let own = (0..k).map(|i| sensor.angles.get(i).copied().flatten());
-            for (period, column) in own.clone().zip(&sensor.columns) {
+            for (period, column) in own.clone().zip(sensor.columns.iter()) {
                 if period.is_some_and(|period| !(period > 0.0 && period.is_finite())) {
                     let message = format!("the period of the angle `{column}` is not a positive number");
                     return Err(Input::new("angles", message).of(Some(column)).into());

@@ -147,7 +147,7 @@ impl Model {
     ) -> Result<Bound<'py, PyAny>> {
         let (file, d, c) = (self.file()?, self.measures(), self.controls());
         let rows = time.len();
-        let (time, z) = (numbers(&time), shaped("z", &z, &[rows, d])?);
+        let (time, z) = (numbers(&time)?, shaped("z", &z, &[rows, d])?);
         let u = match u {
             Some(u) => shaped("u", &u, &[rows, c])?,
             None if c == 0 => Vec::new(),

@@ -5,7 +5,8 @@ use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 
 use crate::errors::{Input, Result};
-use crate::numbers::tuple;
+use crate::listed::Listed;
+use crate::numbers::{numbers, tuple};
 use crate::watch;
 
 /// void f(double t, const double *x, const double *p, double *out)
@@ -84,11 +85,16 @@ impl Function {
     #[staticmethod]
     #[pyo3(signature = (address, owner, *, step=false, parameters=None))]
     #[allow(unsafe_code)]
-    fn address(address: usize, owner: Py<PyAny>, step: bool, parameters: Option<Vec<usize>>) -> Result<Self> {
+    fn address(
+        address: usize,
+        owner: Py<PyAny>,
+        step: bool,
+        parameters: Option<Listed<usize>>,
+    ) -> Result<Self> {
         if address == 0 {
             return Err(Input::new("address", "the address of the function is null").into());
         }
-        let owner = Owned { owner, parameters: parameters.map(Vec::into_boxed_slice) };
+        let owner = Owned { owner, parameters: parameters.map(|all| all.0.into_boxed_slice()) };
         let pointer = core::ptr::without_provenance::<()>(address);
         // SAFETY: the address is not null, and the user says that a function of this signature stands there: nothing else
         // can be known about it. The owner keeps it there.
@@ -176,6 +182,6 @@ fn python(
         let help = "it is called with all points at once: x[i] is component i of all of them";
         return Err(Input::plain(message).help(help).into());
     }
-    out.iter_mut().zip(values.as_array().iter()).for_each(|(to, from)| *to = *from);
+    out.copy_from_slice(&numbers(&values)?);
     Ok(())
 }

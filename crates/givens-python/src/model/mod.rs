@@ -22,6 +22,7 @@ use pyo3::types::{PyDict, PyList};
 use self::build::{Build, Given, SensorParts};
 use crate::errors::{Input, Result, length};
 use crate::graph::Graph;
+use crate::listed::Listed;
 use crate::numbers::numbers;
 
 pub use self::continuous::Continuous;
@@ -129,10 +130,12 @@ fn named(states: &[String], parameters: &[f64], sensors: &[SensorParts]) -> Resu
 }
 
 fn known(states: Vec<String>, sensors: Vec<SensorParts>) -> Known {
-    let sensors = sensors.into_iter().map(|SensorParts { name, columns, mut angles, .. }| {
-        angles.resize(columns.len(), None);
-        Sensor { name, columns, angles }
-    });
+    let sensors = sensors.into_iter().map(
+        |SensorParts { name, columns: Listed(columns), angles: Listed(mut angles), .. }| {
+            angles.resize(columns.len(), None);
+            Sensor { name, columns, angles }
+        },
+    );
     Known { states, sensors: sensors.collect(), ..Known::default() }
 }
 
@@ -144,13 +147,13 @@ impl Model {
     fn continuous(
         py: Python<'_>,
         mut graph: PyRefMut<'_, Graph>,
-        states: Vec<String>,
+        states: Listed<String>,
         controls: usize,
-        parameters: Vec<f64>,
+        parameters: Listed<f64>,
         drift: Given,
         diffusion: Given,
         noises: usize,
-        sensors: Vec<SensorParts>,
+        sensors: Listed<SensorParts>,
         jacobian: Option<Py<Function>>,
         varies: &str,
     ) -> Result<Self> {
@@ -167,7 +170,7 @@ impl Model {
         let mut build = Build { py, graph: &mut graph, states: &states, controls, parameters: &parameters };
         let moves = build.continuous(&drift, &diffusion, noises, varies, jacobian.as_ref())?;
         let sensing = build.sensors(&sensors)?;
-        Ok(Self::assemble(known(states, sensors), Moves::Continuous(moves), sensing))
+        Ok(Self::assemble(known(states.0, sensors.0), Moves::Continuous(moves), sensing))
     }
 
     #[staticmethod]
@@ -175,25 +178,25 @@ impl Model {
     fn discrete(
         py: Python<'_>,
         mut graph: PyRefMut<'_, Graph>,
-        states: Vec<String>,
+        states: Listed<String>,
         controls: usize,
-        parameters: Vec<f64>,
+        parameters: Listed<f64>,
         transition: Given,
         noise_cov: Given,
         step: Option<f64>,
-        sensors: Vec<SensorParts>,
+        sensors: Listed<SensorParts>,
         jacobian: Option<Py<Function>>,
     ) -> Result<Self> {
         named(&states, &parameters, &sensors)?;
         let mut build = Build { py, graph: &mut graph, states: &states, controls, parameters: &parameters };
         let moves = build.discrete(&transition, &noise_cov, step, jacobian.as_ref())?;
         let sensing = build.sensors(&sensors)?;
-        Ok(Self::assemble(known(states, sensors), Moves::Discrete(moves), sensing))
+        Ok(Self::assemble(known(states.0, sensors.0), Moves::Discrete(moves), sensing))
     }
 
     /// The same model with other values of its parameters.
     fn with_parameters(&self, values: PyReadonlyArrayDyn<'_, f64>) -> Result<Self> {
-        let values = numbers(&values);
+        let values = numbers(&values)?;
         length("parameters", "values of the parameters", self.parameters().len(), values.len())?;
         if let Some(i) = values.iter().position(|value| !value.is_finite()) {
             let name = self.known.parameters.get(i);

@@ -126,6 +126,9 @@ impl AccuracySums {
 /// is no covariance.
 pub fn nees(error: &[f64], cov: &[f64]) -> Option<(f64, usize)> {
     let n = error.len();
+    if cov.len() != n * n {
+        return None;
+    }
     let known: Vec<usize> = (0..n).filter(|&i| !error[i].is_nan()).collect();
     let k = known.len();
     let mut p: Vec<f64> = known.iter().flat_map(|&i| known.iter().map(move |&j| cov[i * n + j])).collect();

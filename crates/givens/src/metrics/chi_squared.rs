@@ -2,18 +2,25 @@
 
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
+/// Beyond so many degrees of freedom no digit of a probability is left, and its series goes on without end.
+const MANY: f64 = 1e10;
+
+fn distribution(dof: f64) -> Option<ChiSquared> {
+    ChiSquared::new(dof).ok().filter(|_| dof <= MANY)
+}
+
 /// The value that a χ² variable of `dof` degrees of freedom stays below with probability `p`.
 ///
-/// NaN for no degrees of freedom or a probability outside [0, 1].
+/// NaN for no degrees of freedom, more than 10¹⁰ of them, or a probability outside [0, 1].
 ///
 /// ```
 /// assert!((givens::metrics::chi_squared_quantile(2.0, 0.95) - 5.991464547).abs() < 1e-8);
 /// ```
 pub fn chi_squared_quantile(dof: f64, p: f64) -> f64 {
-    match ChiSquared::new(dof) {
-        Ok(_) if p == 0.0 => 0.0,
-        Ok(_) if p == 1.0 => f64::INFINITY,
-        Ok(distribution) if (0.0..1.0).contains(&p) => bisect(&distribution, dof, p),
+    match distribution(dof) {
+        Some(_) if p == 0.0 => 0.0,
+        Some(_) if p == 1.0 => f64::INFINITY,
+        Some(distribution) if (0.0..1.0).contains(&p) => bisect(&distribution, dof, p),
         _ => f64::NAN,
     }
 }
@@ -33,9 +40,10 @@ fn bisect(distribution: &ChiSquared, dof: f64, p: f64) -> f64 {
     }
 }
 
-/// The probability that a χ² variable of `dof` degrees of freedom stays below `x`; NaN for no degrees of freedom.
+/// The probability that a χ² variable of `dof` degrees of freedom stays below `x`; NaN for no degrees of freedom, or more
+/// than 10¹⁰.
 pub fn chi_squared_cdf(dof: f64, x: f64) -> f64 {
-    ChiSquared::new(dof).map_or(f64::NAN, |distribution| distribution.cdf(x.max(0.0)))
+    distribution(dof).map_or(f64::NAN, |distribution| distribution.cdf(x.max(0.0)))
 }
 
 /// The central 95 % band of a χ² variable of `dof` degrees of freedom.

@@ -24,6 +24,14 @@ impl<'m, M: Transition> Discrete<'m, M> {
 }
 
 impl<M: Transition> Moves for Discrete<'_, M> {
+    fn states(&self) -> usize {
+        self.model.states()
+    }
+
+    fn controls(&self) -> usize {
+        self.model.controls()
+    }
+
     fn parameters(&self) -> &[f64] {
         self.model.parameters()
     }

@@ -2,6 +2,7 @@
 
 use super::Stream;
 use super::rows::{Moves, finite};
+use crate::filter::predict::Plan;
 use crate::filter::{Fault, Quantity};
 use crate::model::{At, Sde, Varies};
 use crate::ode::{Integrator, Steps};
@@ -95,7 +96,7 @@ impl<'m, M: Sde> Path<'m, M> {
     /// its integral over the step; `u1` and `u2` have length q. Euler–Maruyama does not read `u2`.
     ///
     /// # Errors
-    /// A drift or a diffusion that is not finite; `x` is then as before.
+    /// A drift or a diffusion that is not finite, a state that is not or would not be; `x` is then as before.
     pub fn step(&mut self, at: &At<f64>, x: &mut [f64], u1: &[f64], u2: &[f64]) -> Result<(), Fault> {
         let (model, n, q) = (self.model, x.len(), self.model.noises());
         for (of, expected, found) in [
@@ -125,7 +126,7 @@ impl<'m, M: Sde> Path<'m, M> {
             model.drift(at, x, &mut self.drift);
             finite(&self.drift, 1, Quantity::Drift)?;
         }
-        for (i, x) in x.iter_mut().enumerate() {
+        for (i, x) in x.iter().enumerate() {
             let mut moved = delta * self.drift[i];
             if taylor {
                 moved += 0.5 * delta * delta * self.second[i];
@@ -138,8 +139,10 @@ impl<'m, M: Sde> Path<'m, M> {
                     moved += self.lf[i * q + j] * y + self.rate[i * q + j] * (delta * w - y);
                 }
             }
-            *x += moved;
+            self.drift[i] = x + moved;
         }
+        finite(&self.drift, 1, Quantity::Estimate)?;
+        x.copy_from_slice(&self.drift);
         Ok(())
     }
 
@@ -161,6 +164,14 @@ impl<'m, M: Sde> Path<'m, M> {
 }
 
 impl<M: Sde> Moves for Path<'_, M> {
+    fn states(&self) -> usize {
+        self.model.states()
+    }
+
+    fn controls(&self) -> usize {
+        self.model.controls()
+    }
+
     fn parameters(&self) -> &[f64] {
         self.model.parameters()
     }
@@ -174,13 +185,7 @@ impl<M: Sde> Moves for Path<'_, M> {
         stream: &mut Stream,
     ) -> Result<(), Fault> {
         let gap = to - from;
-        let count = match self.paths.steps {
-            _ if gap == 0.0 => 0,
-            Steps::Count(count) => count,
-            // a gap that is a whole number of longest steps, but for rounding, takes no more than these
-            Steps::Longest(longest) => (gap / longest * (1.0 - 1e-12)).floor() as usize + 1,
-        };
-        let dt = gap / count.max(1) as f64;
+        let Plan { count, dt } = Plan::of(self.paths.steps, gap)?;
         let q = self.model.noises();
         let mut noise = core::mem::take(&mut self.noise);
         for k in 0..count {
@@ -188,7 +193,6 @@ impl<M: Sde> Moves for Path<'_, M> {
             let (u1, u2) = noise.split_at(q);
             let at = At { t: from + k as f64 * dt, dt, u, p: self.model.parameters() };
             self.step(&at, x, u1, u2)?;
-            finite(x, 1, Quantity::Estimate)?;
         }
         self.noise = noise;
         Ok(())

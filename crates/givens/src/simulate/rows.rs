@@ -19,6 +19,10 @@ pub struct Simulation {
 
 /// What carries a state over a gap.
 pub(super) trait Moves {
+    /// Length n of the state.
+    fn states(&self) -> usize;
+    /// Number of controls.
+    fn controls(&self) -> usize;
     /// The model's parameters.
     fn parameters(&self) -> &[f64];
     /// Moves `x` from time `from` to `to` with the controls `u`.
@@ -43,6 +47,11 @@ pub(super) fn draw<'a, H: Observation>(
 ) -> Result<Simulation, StepError> {
     let (n, d) = (prior.mean().len(), sensors.measures());
     let r = sensors.noise().columns(d);
+    for (of, expected, found) in
+        [("the prior", moves.states(), n), ("the sensors' state", n, sensors.states())]
+    {
+        length(of, expected, found).map_err(|fault| StepError { fault, time: t0, step: 0 })?;
+    }
     let mut out = Simulation::default();
     let mut x = prior.mean().to_vec();
     let mut w = vec![0.0; n.max(r)];
@@ -55,6 +64,8 @@ pub(super) fn draw<'a, H: Observation>(
         if !(gap >= 0.0 && gap.is_finite()) {
             return Err(fail(Fault::Backwards { to: row.time }));
         }
+        length("controls", moves.controls(), row.u.len()).map_err(fail)?;
+        length("measurement", d, row.z.len()).map_err(fail)?;
         let u = held.get_or_insert_with(|| row.u.to_vec());
         moves.advance(t, row.time, u, &mut x, stream).map_err(fail)?;
         t = row.time;
@@ -78,6 +89,10 @@ pub(super) fn draw<'a, H: Observation>(
         out.z.extend_from_slice(&z);
     }
     Ok(out)
+}
+
+fn length(of: &'static str, expected: usize, found: usize) -> Result<(), Fault> {
+    if expected == found { Ok(()) } else { Err(Fault::Length { of, expected, found }) }
 }
 
 pub(super) fn healthy(health: Health<f64>, matrix: Matrix) -> Result<(), Fault> {

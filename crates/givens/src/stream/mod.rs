@@ -116,9 +116,9 @@ impl Stream<'_> {
     /// Bytes of memory for each row that is held, of n `states` and d `measures`: its estimates, and what the fixed-interval
     /// smoother records.
     pub fn bytes_per_row(goal: Goal, states: usize, measures: usize) -> usize {
-        let record = History::<f64, Vec<f64>>::record_len(states) * size_of::<f64>();
+        let record = History::<f64, Vec<f64>>::record_len(states).saturating_mul(size_of::<f64>());
         let recorded = if goal == Goal::Interval { record } else { 0 };
-        Estimates::row_bytes(states, measures, goal != Goal::Filter) + recorded
+        Estimates::row_bytes(states, measures, goal != Goal::Filter).saturating_add(recorded)
     }
 
     /// Runs a method over a trajectory, and hands its rows to `sink`; a method of run time by

@@ -95,7 +95,10 @@ impl Plan {
     }
 
     /// A gap divided as the user says.
-    pub(super) fn of(steps: Steps, gap: f64) -> Result<Self, Fault> {
+    ///
+    /// # Errors
+    /// More steps than a gap may have.
+    pub fn of(steps: Steps, gap: f64) -> Result<Self, Fault> {
         let count = match steps {
             _ if gap == 0.0 => 0,
             Steps::Count(count) => count,

@@ -16,6 +16,9 @@ use crate::ode::Work;
 use crate::rule::{Rule, Shape, Spread, spread_scratch};
 use crate::scalar::{Mask, Real};
 
+/// More steps in a gap than anyone means.
+const MANY: f64 = 1e9;
+
 /// `transition`: the step of a discrete model, by the rule (docs/algorithms.md P1, P2).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct OneTransition;
@@ -96,6 +99,10 @@ impl<M: Transition> TimeUpdate<M> for OneTransition {
         // where they hide half a step, nothing tells how many there are
         if Real::abs(gap / period - whole) > 1e-6 + rounding || rounding > 0.5 {
             return Err(Fault::NotWholeSteps { gap, period });
+        }
+        if whole > MANY {
+            let why = "a gap holds more than a billion of the model's steps: give both in the same unit";
+            return Err(Fault::Mismatch { why });
         }
         Ok(Plan { count: whole as usize, dt: period })
     }

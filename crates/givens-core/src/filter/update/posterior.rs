@@ -1,8 +1,11 @@
 //! What is believed after a measurement, before the belief takes it over.
 
 use super::Learnt;
+use crate::filter::error::Fault;
 use crate::filter::form::Belief;
+use crate::filter::quantity::Quantity;
 use crate::kernels::copy_lower;
+use crate::scalar::{Mask, Real};
 
 /// Rows of a matrix, each `stride` from the one before.
 #[derive(Clone, Copy)]
@@ -31,7 +34,23 @@ pub(crate) struct Posterior<'a, T> {
     pub learnt: Option<(&'a [T], Rows<'a, T>)>,
 }
 
-impl<T: crate::scalar::Real> Posterior<'_, T> {
+impl<T: Real> Posterior<'_, T> {
+    /// Fails at the first component whose mean, or row of the root, is not finite in any lane: sums of squares may overflow
+    /// where none of the numbers does.
+    #[inline(always)]
+    pub fn finite(&self) -> Result<(), Fault> {
+        for (component, mean) in self.mean.iter().enumerate() {
+            let mut size = mean.abs();
+            for x in self.factor.row(component, component + 1) {
+                size += x.abs();
+            }
+            if (!size.finite()).all() {
+                return Err(Fault::NotFinite { quantity: Quantity::Estimate, component });
+            }
+        }
+        Ok(())
+    }
+
     /// Makes it the belief.
     #[inline(always)]
     pub fn settle(&self, belief: &mut Belief<T>, learnt: &mut Learnt<T>) {

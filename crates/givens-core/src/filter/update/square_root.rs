@@ -10,6 +10,7 @@ use crate::filter::error::{Fault, Matrix};
 use crate::filter::form::Belief;
 use crate::filter::lanes::split;
 use crate::filter::memory::{larger, take};
+use crate::filter::quantity::Quantity;
 use crate::kernels::{copy_lower, dot, downdate, product_lower};
 use crate::scalar::{Mask, Real};
 
@@ -82,16 +83,21 @@ pub(super) fn update<'a, T: Real>(
 }
 
 /// The innovation covariance must have every pivot: it is divided by. One below the spacing of numbers at the predicted
-/// measure is none.
+/// measure is none; of one that has overflowed, the measurement would be nothing.
 #[inline(always)]
 pub(super) fn pivots<T: Real>(root: &[T], stride: usize, predicted: &[T]) -> Result<T::Mask, Fault> {
     let mut sick = T::Mask::splat(false);
     for (i, z) in predicted.iter().enumerate() {
-        let zero = !(T::of(T::EPSILON) * z.abs()).lt(root[i * stride + i]);
+        let pivot = root[i * stride + i];
+        let zero = !(T::of(T::EPSILON) * z.abs()).lt(pivot);
         if zero.all() {
             return Err(Fault::SingularInnovation { measure: i });
         }
-        sick = sick | zero;
+        let endless = !pivot.finite();
+        if endless.all() {
+            return Err(Fault::NotFinite { quantity: Quantity::Innovation, component: i });
+        }
+        sick = sick | zero | endless;
     }
     Ok(sick)
 }

@@ -1,0 +1,3 @@
+//! `cargo +nightly fuzz run by_hand --features libfuzzer`
+#![no_main]
+givens_fuzz::libfuzzer!("by_hand");

@@ -1,0 +1,3 @@
+//! `cargo +nightly fuzz run model_file --features libfuzzer`
+#![no_main]
+givens_fuzz::libfuzzer!("model_file");

@@ -1,0 +1,3 @@
+//! `cargo +nightly fuzz run options --features libfuzzer`
+#![no_main]
+givens_fuzz::libfuzzer!("options");

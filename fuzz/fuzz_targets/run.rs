@@ -1,0 +1,3 @@
+//! `cargo +nightly fuzz run run --features libfuzzer`
+#![no_main]
+givens_fuzz::libfuzzer!("run");

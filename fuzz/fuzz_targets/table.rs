@@ -1,0 +1,3 @@
+//! `cargo +nightly fuzz run table --features libfuzzer`
+#![no_main]
+givens_fuzz::libfuzzer!("table");

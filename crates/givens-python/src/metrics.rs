@@ -18,7 +18,9 @@ pub fn consistency<'py>(
 ) -> Result<Bound<'py, PyDict>> {
     length("nis_dof", "degrees of freedom", nis.len(), nis_dof.len())?;
     if !aligned(&nis_dof) {
-        return Err(Input::new("nis_dof", "an array that is not aligned in memory").help("give a copy of it").into());
+        return Err(Input::new("nis_dof", "an array that is not aligned in memory")
+            .help("give a copy of it")
+            .into());
     }
     let mut rows = Estimates::default();
     rows.nis = numbers(&nis)?;

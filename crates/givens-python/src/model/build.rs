@@ -181,7 +181,8 @@ impl Build<'_, '_> {
         if transition.is_called() || noise_cov.is_called() || jacobian.is_some() {
             let next = self.part("transition", transition, [n, 1], [true, true])?;
             let next = self.with_jacobian(next, jacobian);
-            let zeros = Given::Nodes(Listed(vec![self.graph.inner().constant(0.0).number(); n.saturating_mul(n)]));
+            let zeros =
+                Given::Nodes(Listed(vec![self.graph.inner().constant(0.0).number(); n.saturating_mul(n)]));
             let noise_cov = if none { &zeros } else { noise_cov };
             let noise_cov = self.part("noise_cov", noise_cov, [n, n], [false, true])?;
             let (controls, parameters) = (self.controls, self.parameters.len());

@@ -274,3 +274,17 @@ def test_model_files_refuse_absurd_arguments() -> None:
     refused(lambda: native.Model.parse(""))
     refused(lambda: native.Model.parse(STEPS, "steps", {"w": 1.0}), "`w`")
     refused(lambda: native.Model.parse(STEPS, "steps", {"k": NAN}), "parameter `k` is NaN")
+
+
+def test_what_says_that_it_is_endless_is_refused() -> None:
+    endless = range(2**62)
+    refused(lambda: native.run_batch(endless), "more than there is memory for")  # type: ignore[arg-type]
+    refused(lambda: m.discrete(transition=endless))
+    ones, counts = np.broadcast_to(1.0, (2**50,)), np.broadcast_to(np.int64(1), (2**50,))
+    refused(lambda: native.consistency(ones, counts), "longer than there is memory for")
+
+
+def test_an_array_that_lies_across_words_is_read() -> None:
+    across = np.frombuffer(b"\0" + MEAN.tobytes(), "u1", offset=1).view("f8")
+    assert not across.flags.aligned
+    assert (run(mean=across).mean == run().mean).all()

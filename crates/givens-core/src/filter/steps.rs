@@ -266,13 +266,9 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
         if gated {
             scores[1] = T::zero();
         } else if let Some(posterior) = updated.posterior {
-            match posterior.finite().and_then(|()| judge(before, posterior.factor, updated.exact, floor)) {
-                Ok(more) => sick = sick | more,
-                Err(fault) => {
-                    scores.fill(T::zero());
-                    return Err(fault);
-                }
-            }
+            let judged = |lost| Ok(lost | judge(before, posterior.factor, updated.exact, floor)?);
+            let more = posterior.lost().and_then(judged).inspect_err(|_| scores.fill(T::zero()))?;
+            sick = sick | more;
             posterior.settle(&mut belief, &mut learnt);
         }
         self.present = present;

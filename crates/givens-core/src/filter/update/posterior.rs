@@ -35,20 +35,23 @@ pub(crate) struct Posterior<'a, T> {
 }
 
 impl<T: Real> Posterior<'_, T> {
-    /// Fails at the first component whose mean, or row of the root, is not finite in any lane: sums of squares may overflow
-    /// where none of the numbers does.
+    /// Fails at the first component whose mean, or row of the root, is finite in no lane: sums of squares may overflow where
+    /// none of the numbers does. Else the lanes where one is not.
     #[inline(always)]
-    pub fn finite(&self) -> Result<(), Fault> {
+    pub fn lost(&self) -> Result<T::Mask, Fault> {
+        let mut sick = T::Mask::splat(false);
         for (component, mean) in self.mean.iter().enumerate() {
             let mut size = mean.abs();
             for x in self.factor.row(component, component + 1) {
                 size += x.abs();
             }
-            if (!size.finite()).all() {
+            let lost = !size.finite();
+            if lost.all() {
                 return Err(Fault::NotFinite { quantity: Quantity::Estimate, component });
             }
+            sick = sick | lost;
         }
-        Ok(())
+        Ok(sick)
     }
 
     /// Makes it the belief.

@@ -1,6 +1,7 @@
 //! What a run keeps of itself, so that it may be broken off and gone on with: `--resume`.
 
 use crate::args::FilterArgs;
+use crate::files;
 use crate::message::{Stop, say};
 use crate::plan::Plan;
 use core::time::Duration;
@@ -28,16 +29,34 @@ impl Checkpoint {
         PathBuf::from(path)
     }
 
+    /// Refuses an output that cannot be gone on with; without `--resume`, one that another run may go on with.
+    pub fn check(output: Option<&Path>, resumable: bool) -> Result<(), Stop> {
+        let Some(output) = output.filter(|output| !files::is_standard(output)) else {
+            return if resumable && output.is_some() {
+                Err(Stop::input("-o -: standard output cannot be gone on with")
+                    .help("name a file, or leave --resume out"))
+            } else {
+                Ok(())
+            };
+        };
+        if resumable && output.exists() && !output.is_file() {
+            let message = format!("-o {}: it is no file, and cannot be gone on with", output.display());
+            return Err(Stop::input(message).help("name a file, or leave --resume out"));
+        }
+        let path = Self::path(output);
+        if !resumable && path.is_file() {
+            let message = format!("{}: a run was broken off that may be gone on with", path.display());
+            return Err(Stop::input(message).help("add --resume, or remove the file"));
+        }
+        Ok(())
+    }
+
     /// Opens it, and reads what a run that was broken off has left there.
     pub fn open<T: DeserializeOwned>(
         output: &Path,
         identity: Identity,
         every: Duration,
     ) -> Result<(Self, Vec<T>), Stop> {
-        if output.exists() && !output.is_file() {
-            let message = format!("-o {}: it is no file, and cannot be gone on with", output.display());
-            return Err(Stop::input(message).help("name a file, or leave --resume out"));
-        }
         let opened = Journal::open(&Self::path(output), &identity);
         let (journal, left) = opened.map_err(|error| Stop::input(error.to_string()).help(&error.help))?;
         Ok((Self { journal, identity, every, last: Instant::now() }, left))

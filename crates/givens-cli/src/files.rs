@@ -40,7 +40,7 @@ pub fn check(inputs: &[(&str, Option<&str>)], outputs: &[(&str, Option<&Path>)])
 }
 
 /// Whether a path stands for standard output.
-fn is_standard(path: &Path) -> bool {
+pub fn is_standard(path: &Path) -> bool {
     path.as_os_str() == "-"
 }
 
@@ -91,21 +91,37 @@ impl Sink {
     /// Opens a file that another run may go on with, behind what one has left.
     pub fn resumed(path: &Path, left: Written) -> Result<Self, Stop> {
         Destination::resumed(path, left).map(Self::File).map_err(|error| {
-            let remedy = format!("remove {}, and the run begins anew", Checkpoint::path(path).display());
-            Stop::input(error.to_string()).help(remedy)
+            let stop = Stop::input(error.to_string());
+            if left == Written::default() {
+                return stop;
+            }
+            stop.help(format!(
+                "remove {} and what it was made beside, and the run begins anew",
+                Checkpoint::path(path).display()
+            ))
         })
     }
 
     /// Writes the data, and gives the file its name.
-    pub fn write(self, data: impl FnOnce(&mut dyn Output) -> io::Result<()>) -> Result<(), Stop> {
+    pub fn write(mut self, data: impl FnOnce(&mut dyn Output) -> io::Result<()>) -> Result<(), Stop> {
+        self.fill(data)?;
+        self.finish()
+    }
+
+    /// Writes the data.
+    pub fn fill(&mut self, data: impl FnOnce(&mut dyn Output) -> io::Result<()>) -> Result<(), Stop> {
         match self {
             Self::Stdout => stdout::write(data),
-            Self::File(mut file) => {
-                if let Err(error) = data(&mut file) {
-                    return Err(Stop::failed(format!("cannot write {}: {error}", file.path().display())));
-                }
-                file.finish().map_err(|error| Stop::failed(error.to_string()))
-            }
+            Self::File(file) => data(file)
+                .map_err(|error| Stop::failed(format!("cannot write {}: {error}", file.path().display()))),
+        }
+    }
+
+    /// Gives the file its name.
+    pub fn finish(self) -> Result<(), Stop> {
+        match self {
+            Self::Stdout => Ok(()),
+            Self::File(file) => file.finish().map_err(|error| Stop::failed(error.to_string())),
         }
     }
 }

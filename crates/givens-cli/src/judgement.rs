@@ -4,15 +4,29 @@ use crate::figure;
 use crate::message::{Stop, count, digits};
 use crate::plan::Plan;
 use crate::report::Summary;
-use givens::metrics::{Consistency, InnovationSums, MeasureVerdict, Verdict};
+use givens::metrics::{
+    Consistency, InnovationSums, MeasureVerdict, Outlier, Verdict, chi_squared_cdf, chi_squared_quantile,
+};
 use givens::scalar::Shown;
-use givens_io::{Page, Tone, Track};
+use givens_io::{Page, Row, Tone, Track};
 use std::path::Path;
 
 /// The longest gaps that are named.
 const GAPS: usize = 5;
 /// A gap so many times the usual one is told.
 const LONG: f64 = 10.0;
+
+/// Fewer measured rows are too few to say that all is well.
+const FEW: usize = 20;
+
+/// Refuses a name that is none of a page.
+pub fn check(path: &Path) -> Result<(), Stop> {
+    let ending = path.extension().map_or(String::new(), |ending| ending.to_string_lossy().to_lowercase());
+    match ending.as_str() {
+        "html" | "htm" => Ok(()),
+        _ => Err(Stop::input(format!("--report {}: the name must end in .html", path.display()))),
+    }
+}
 
 /// The page about a run.
 pub fn page(
@@ -37,11 +51,18 @@ pub fn page(
         ),
     );
     failures.iter().for_each(|failure| page.say(Tone::Look, failure));
+    let [measured, ..] = innovations.rows();
     page.heading("Are the errors as large as the filter says?");
-    let (tone, words) = size(&summary.consistency);
+    let (tone, words) = size(&summary.consistency, usual(plan.choice.gate, &summary.consistency, measured));
     page.say(tone, &words);
-    measures(&mut page, plan, innovations);
-    outliers(&mut page, plan, innovations);
+    if measured > 0 {
+        if measured < FEW {
+            let rows = count(measured, "measured row");
+            page.say(Tone::Look, &format!("{rows} to judge by are few: what is told as good may be chance."));
+        }
+        measures(&mut page, plan, innovations);
+        outliers(&mut page, plan, innovations);
+    }
     gaps(&mut page, plan);
     if !shown.is_empty() {
         page.heading("The run");
@@ -51,29 +72,33 @@ pub fn page(
     Ok(page.finish())
 }
 
-/// The mean NIS in words.
-fn size(consistency: &Consistency) -> (Tone, String) {
-    let Consistency { ratio, band: (low, high), .. } = *consistency;
+/// The mean NIS per degree of freedom of a right model: less than one where a gate keeps the largest out.
+fn usual(gate: Option<f64>, consistency: &Consistency, measured: usize) -> f64 {
+    let dof = consistency.dof as f64 / measured.max(1) as f64;
+    match gate {
+        Some(p) if dof > 0.0 => chi_squared_cdf(dof + 2.0, chi_squared_quantile(dof, p)) / p,
+        _ => 1.0,
+    }
+}
+
+/// The mean NIS in words, where that of a right model is `usual`.
+fn size(consistency: &Consistency, usual: f64) -> (Tone, String) {
+    let Consistency { ratio, band: (low, high), dof } = *consistency;
+    let band = (usual * low, usual * high);
     let of = format!(
-        "mean NIS is {ratio:.3} per degree of freedom, of a right model {low:.3} to {high:.3} (95 %)"
+        "mean NIS is {ratio:.3} per degree of freedom, of a right model {:.3} to {:.3} (95 %)",
+        band.0, band.1
     );
-    match consistency.verdict() {
+    let each = "below stands what each measure says of it";
+    match (Consistency { ratio, band, dof }).verdict() {
         Verdict::Unknown => (Tone::Look, "Nothing was measured: there is nothing to judge by.".to_owned()),
         Verdict::Consistent => (Tone::Good, format!("Yes: {of}.")),
-        Verdict::Overconfident => (
-            Tone::Look,
-            format!(
-                "They are larger: {of}. The filter trusts itself too much. Below stands which measures are concerned: where \
-                 one foretells its next innovation, the state moves otherwise than the model says, and more process noise \
-                 helps; where not, its own noise is told too small."
-            ),
-        ),
-        Verdict::Underconfident => (
-            Tone::Look,
-            format!(
-                "They are smaller: {of}. The filter could be more precise: process noise or measurement noise is told too large."
-            ),
-        ),
+        Verdict::Overconfident => {
+            (Tone::Look, format!("They are larger: {of}. The filter trusts itself too much; {each}."))
+        }
+        Verdict::Underconfident => {
+            (Tone::Look, format!("They are smaller: {of}. The filter could be more precise; {each}."))
+        }
     }
 }
 
@@ -132,13 +157,15 @@ fn wrong(found: &MeasureVerdict) -> Vec<String> {
         ));
     }
     if found.is_correlated() {
-        let (how, what) = if found.correlation > 0.0 {
-            (
-                "with its sign",
-                "the state moves otherwise than the model says (more process noise), or the sensor's errors last",
-            )
-        } else {
-            ("with the other sign", "the process noise is told too large, or the measurement's too small")
+        let how = if found.correlation > 0.0 { "with its sign" } else { "with the other sign" };
+        let is_small = found.mean_square < 1.0 && found.is_of_other_size();
+        let what = match (found.correlation > 0.0, is_small) {
+            (true, false) => {
+                "the state moves otherwise than the model says (more process noise), or the sensor's errors last"
+            }
+            (true, true) => "its noise is told too large",
+            (false, false) => "its noise is told too small, or the process noise too large beside it",
+            (false, true) => "the process noise is told too large",
         };
         words.push(format!(
             "an innovation foretells the next, {how} (correlation {:.2}): {what}.",
@@ -161,21 +188,34 @@ fn outliers(page: &mut Page, plan: &Plan, innovations: &InnovationSums) {
     page.heading("Outliers");
     let [rows, beyond, far] = innovations.rows();
     let expected = 1e-4 * rows as f64;
-    let tone = if far as f64 > expected + 5.0 * expected.max(0.2).sqrt() { Tone::Look } else { Tone::Good };
-    let percent = if rows == 0 { 0.0 } else { 100.0 * beyond as f64 / rows as f64 };
-    let gate = match (plan.choice.gate, tone) {
-        (None, Tone::Look) => " A gate (--set gate=0.9999) leaves them out, marked and counted.",
+    // so far out that of so many rows of a right model one is there once in a thousand times
+    let tail = |row: &Outlier| 1.0 - chi_squared_cdf(row.dof as f64, row.nis);
+    let is_gross = innovations.worst().first().is_some_and(|worst| rows as f64 * tail(worst) < 1e-3);
+    let many = far as f64 > 1.0 + expected + 5.0 * expected.sqrt();
+    let tone = if is_gross || many { Tone::Look } else { Tone::Good };
+    let percent = 100.0 * beyond as f64 / rows.max(1) as f64;
+    // 5 % are expected, and those far out come on top
+    let few = percent < 8.0 || beyond <= far + 1;
+    let remedy = match (plan.choice.gate, tone, few) {
+        (None, Tone::Look, true) => {
+            " A gate (--set gate=0.9999) leaves them out, marked and counted; where rows beyond it follow each other, the \
+             filter is lost and not the rows."
+        }
+        (_, Tone::Look, false) => {
+            " So many are no outliers: the model is wrong, and a gate would lose the track."
+        }
         _ => "",
     };
+    let expected = if expected < 0.1 { "less than 0.1".to_owned() } else { format!("{expected:.1}") };
     page.say(
         tone,
         &format!(
-            "{far} of {} lie beyond the quantile 0.9999 of NIS, where {} would be expected; beyond 0.95 lie {percent:.1} %.{gate}",
-            count(rows, "measured row"),
-            digits(expected)
+            "{far} of {} lie beyond the quantile 0.9999 of NIS, where {expected} would be expected; beyond 0.95 lie \
+             {percent:.1} %.{remedy}",
+            count(rows, "measured row")
         ),
     );
-    let row = |outlier: &givens::metrics::Outlier| {
+    let row = |outlier: &Outlier| {
         let track = &plan.tracks.tracks[outlier.track];
         let row = &track.rows[outlier.row];
         let used = if outlier.gated { "not taken in" } else { "taken in" };
@@ -199,16 +239,15 @@ fn place(plan: &Plan, track: &Track, line: usize) -> String {
 /// Times without rows.
 fn gaps(page: &mut Page, plan: &Plan) {
     page.heading("Gaps");
-    let mut gaps: Vec<(f64, &Track, usize)> = Vec::new();
+    let mut gaps: Vec<(f64, &Track, [&Row; 2])> = Vec::new();
     for track in &plan.tracks.tracks {
-        let pairs = track.rows.windows(2).enumerate();
-        gaps.extend(
-            pairs.map(|(k, pair)| (pair[1].time - pair[0].time, track, k)).filter(|(gap, ..)| *gap > 0.0),
-        );
+        let measured: Vec<&Row> = track.rows.iter().filter(|row| row.measured()).collect();
+        let pairs = measured.windows(2).map(|pair| (pair[1].time - pair[0].time, track, [pair[0], pair[1]]));
+        gaps.extend(pairs.filter(|(gap, ..)| *gap > 0.0));
     }
     gaps.sort_by(|a, b| b.0.total_cmp(&a.0));
     let Some(&(usual, ..)) = gaps.get(gaps.len() / 2) else {
-        page.say(Tone::Plain, "No track has rows at two times.");
+        page.say(Tone::Plain, "No track has measured rows at two times.");
         return;
     };
     let long: Vec<_> = gaps.iter().take_while(|(gap, ..)| *gap > LONG * usual).collect();
@@ -216,12 +255,15 @@ fn gaps(page: &mut Page, plan: &Plan) {
     let (tone, words) = match long.len() {
         0 => (
             Tone::Good,
-            format!("The usual gap between rows is {}; none is {LONG} times as long.", digits(usual)),
+            format!(
+                "The usual gap between measured rows is {}; none is {LONG} times as long.",
+                digits(usual)
+            ),
         ),
         n => (
             Tone::Look,
             format!(
-                "The usual gap between rows is {}; {n} of {} are more than {LONG} times as long.",
+                "The usual gap between measured rows is {}; {n} of {} are more than {LONG} times as long.",
                 digits(usual),
                 gaps.len()
             ),
@@ -231,8 +273,7 @@ fn gaps(page: &mut Page, plan: &Plan) {
     if empty > 0 {
         page.say(Tone::Plain, &format!("{} without a measure: predictions.", count(empty, "row")));
     }
-    let row = |&&(gap, track, k): &&(f64, &Track, usize)| {
-        let (from, to) = (&track.rows[k], &track.rows[k + 1]);
+    let row = |&&(gap, track, [from, to]): &&(f64, &Track, [&Row; 2])| {
         vec![place(plan, track, from.line), from.time_text.clone(), to.time_text.clone(), digits(gap)]
     };
     page.table(&["behind row", "from", "to", "length"], &long.iter().take(GAPS).map(row).collect::<Vec<_>>());

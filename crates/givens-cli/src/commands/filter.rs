@@ -6,14 +6,14 @@ use crate::figure::{self, Shown};
 use crate::files::{self, Sink};
 use crate::instants::Instants;
 use crate::judgement;
-use crate::message::Stop;
+use crate::message::{Stop, say};
 use crate::plan::Plan;
 use crate::report::{self, Summary};
 use crate::session::{Manner, Session};
 use crate::streaming::{Stand, Streaming};
 use givens::Goal;
 use givens::metrics::InnovationSums;
-use givens_io::{Format, Written, write_answers};
+use givens_io::{Format, Journal, Written, write_answers};
 use std::path::{Path, PathBuf};
 
 /// Estimates each state from the measurements up to it.
@@ -34,9 +34,13 @@ fn run(args: &FilterArgs, task: &str, goals: impl Fn(&Plan) -> Result<Vec<Goal>,
     let output = args.output.as_deref();
     let format = format(args.format, output)?;
     args.plots.iter().try_for_each(|path| figure::check(path))?;
+    args.report.as_deref().map_or(Ok(()), judgement::check)?;
     let resumable = args.resume.zip(output);
+    Checkpoint::check(output, resumable.is_some())?;
     let checkpoint = resumable.map(|(_, output)| Checkpoint::path(output));
-    let mut outputs = vec![("-o", output), ("--resume", checkpoint.as_deref())];
+    let next = checkpoint.as_deref().map(Journal::next);
+    let mut outputs =
+        vec![("-o", output), ("--resume", checkpoint.as_deref()), ("--resume", next.as_deref())];
     outputs.extend(args.plots.iter().map(|path| ("--plot", Some(path.as_path()))));
     outputs.push(("--report", args.report.as_deref()));
     files::check(
@@ -61,7 +65,7 @@ fn run(args: &FilterArgs, task: &str, goals: impl Fn(&Plan) -> Result<Vec<Goal>,
     if let [goal] = goals[..] {
         let mut alone = Streaming::new(&plan, goal, manner, format, pages.drawn())?;
         let (mut kept, mut left) = (None, None);
-        let sink = match resumable {
+        let mut sink = match resumable {
             Some((every, output)) => {
                 let (checkpoint, stands) = Checkpoint::open::<Stand>(output, identity(), every)?;
                 (kept, left) = (Some(checkpoint), stands.into_iter().next_back());
@@ -69,19 +73,28 @@ fn run(args: &FilterArgs, task: &str, goals: impl Fn(&Plan) -> Result<Vec<Goal>,
             }
             None => Sink::open(output)?,
         };
-        sink.write(|out| alone.run(out, left, kept.as_mut()))?;
+        if left.is_some() {
+            say("goes on from the checkpoint of a run that was broken off");
+        }
+        sink.fill(|out| alone.run(out, left, kept.as_mut()))?;
+        // what may be gone on with has its name last
+        let sink = if kept.is_some() { Some(sink) } else { sink.finish().map(|()| None)? };
         let (summary, failures) = (alone.summary(), alone.failure().map_or(&[][..], core::slice::from_ref));
         pages.write(&plan, &summary, alone.innovations(), failures, alone.shown().as_slice())?;
+        sink.map_or(Ok(()), Sink::finish)?;
         kept.map(Checkpoint::remove);
         report::closing(&plan, &summary);
         return if failures.is_empty() { Ok(()) } else { Err(Stop::failures(failures)) };
     }
-    let sink = Sink::open(output)?;
     let (mut kept, mut done) = (None, Vec::new());
     if let Some((every, output)) = resumable {
         let (checkpoint, found) = Checkpoint::open(output, identity(), every)?;
         (kept, done) = (Some(checkpoint), found);
     }
+    if !done.is_empty() {
+        say("goes on from the checkpoint of a run that was broken off");
+    }
+    let sink = Sink::open(output)?;
     let session = Session::resume(&plan, &plan.choice, &goals, manner, done, kept.as_mut())?;
     let (model, gated) = (&plan.model, plan.choice.gate.is_some());
     sink.write(|out| match &at {

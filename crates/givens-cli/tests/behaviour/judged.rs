@@ -48,8 +48,7 @@ fn noises_that_are_told_wrong_are_found() {
     folder.write("sure.toml", &WALK.replace("std = [1]", "std = [0.3]"));
     let text = page(&folder, "filter sure.toml drawn.csv");
     assert!(
-        text.contains("They are larger: mean NIS")
-            && text.contains("z of level: an innovation foretells the next, with the other sign"),
+        text.contains("They are larger: mean NIS") && text.contains("its noise is told too small"),
         "{text}"
     );
     folder.write("stiff.toml", &WALK.replace("[[\"dt\"]]", "[[\"0.01*dt\"]]"));
@@ -78,6 +77,36 @@ fn outliers_and_gaps_are_named_by_their_lines() {
     );
     let gated = page(&folder, "filter walk.toml holes.csv --set gate=0.9999");
     assert!(gated.contains("not taken in") && gated.contains("Yes: mean NIS"), "{gated}");
+}
+
+#[test]
+fn advice_is_of_what_is_wrong() {
+    let folder = drawn("advice");
+    // twice the noise that there is: innovations are small, and last
+    folder.write("loud.toml", &WALK.replace("std = [1]", "std = [2]"));
+    let text = page(&folder, "filter loud.toml drawn.csv");
+    assert!(text.contains("They are smaller") && text.contains("its noise is told too large"), "{text}");
+    // a gate takes the largest of a right model too, and no more is said
+    let text = page(&folder, "filter walk.toml drawn.csv --set gate=0.99");
+    assert!(text.contains("Yes: mean NIS"), "{text}");
+    // one gross row of few
+    folder.write("few.csv", "time,z\n1,0.1\n2,-0.3\n3,0.2\n4,90\n5,0.4\n6,0.1\n7,0.3\n");
+    let text = page(&folder, "filter walk.toml few.csv --set gate=0.9999");
+    assert!(
+        text.contains("6 measured rows") || text.contains("7 measured rows to judge by are few"),
+        "{text}"
+    );
+    // an outage whose rows are there, and empty
+    let row = |k: usize| if k > 30 && k < 60 { format!("{k},\n") } else { format!("{k},0.1\n") };
+    folder.write("outage.csv", &format!("time,z\n{}", (1..100).map(row).collect::<String>()));
+    let text = page(&folder, "filter walk.toml outage.csv");
+    assert!(text.contains("<td>outage.csv:31</td><td>30</td><td>60</td>"), "{text}");
+    assert!(text.contains("29 rows without a measure"), "{text}");
+    folder.write("none.csv", "time,z\n1,\n2,\n");
+    let text = page(&folder, "filter walk.toml none.csv");
+    assert!(text.contains("Nothing was measured") && !text.contains("class=\"good\""), "{text}");
+    let found = folder.run("filter walk.toml few.csv --report r.pdf");
+    assert!(found.code == 2 && found.stderr.contains("the name must end in .html"), "{}", found.stderr);
 }
 
 #[test]

@@ -44,7 +44,8 @@ fn survives(folder: &Folder, line: &str, output: &str, times: usize) {
             break;
         }
         killed += 1;
-        assert!(!folder.path(output).exists(), "nothing lies there before it is whole");
+        let partial = folder.path(&format!("{output}.partial"));
+        assert!(!folder.path(output).exists() || !partial.exists(), "nothing lies there before it is whole");
         if killed == times {
             break;
         }
@@ -52,7 +53,8 @@ fn survives(folder: &Folder, line: &str, output: &str, times: usize) {
     assert_eq!(killed, times, "{line}: it was done too soon");
     assert!(checkpoint.exists(), "{line}");
     let last = folder.run(&resumed).good();
-    assert_eq!(last.stderr, unbroken.stderr, "{line}: the closing words");
+    let goes_on = "goes on from the checkpoint of a run that was broken off\n";
+    assert_eq!(last.stderr, format!("{goes_on}{}", unbroken.stderr), "{line}: the words");
     let whole = folder.read(&format!("unbroken-{output}"));
     assert!(folder.read(output) == whole, "{line}: other bytes");
     let plain = format!("{line} -o plain-{output}");
@@ -69,18 +71,18 @@ fn survives(folder: &Folder, line: &str, output: &str, times: usize) {
 #[test]
 fn a_filter_that_is_killed_goes_on_to_the_same_bytes() {
     let folder = folder("filter");
-    folder.write("long.csv", &table(40_000, 1));
+    folder.write("long.csv", &table(40_000, 1)).write("free.toml", &WALK.replace("step = 1\n", ""));
     survives(&folder, "filter walk.toml long.csv", "out.csv", 3);
-    survives(&folder, "filter walk.toml long.csv --at every:0.5", "at.csv", 1);
+    survives(&folder, "filter free.toml long.csv --at every:0.5", "at.csv", 1);
     survives(&folder, "filter walk.toml long.csv --set gate=0.9 --plot a.svg", "out.jsonl", 1);
 }
 
 #[test]
 fn a_smoother_that_is_killed_goes_on_to_the_same_bytes() {
     let folder = folder("smoother");
-    folder.write("long.csv", &table(40_000, 1));
+    folder.write("long.csv", &table(40_000, 1)).write("free.toml", &WALK.replace("step = 1\n", ""));
     survives(&folder, "smooth walk.toml long.csv", "out.csv", 4);
-    survives(&folder, "smooth walk.toml long.csv --at every:0.5", "at.csv", 2);
+    survives(&folder, "smooth free.toml long.csv --at every:0.5", "at.csv", 2);
     survives(&folder, "smooth walk.toml long.csv --lag 7", "lag.csv", 1);
 }
 
@@ -110,6 +112,59 @@ fn a_disk_that_is_full_leaves_what_can_be_gone_on_with() {
     assert_eq!(shell("--resume=0"), ["out.csv.checkpoint", "out.csv.partial"]);
     folder.run("filter walk.toml long.csv --resume -o out.csv").good();
     assert!(folder.read("out.csv") == expected);
+}
+
+#[test]
+fn a_run_that_was_killed_behind_its_last_word_is_gone_on_with() {
+    let folder = folder("named");
+    let bytes = killed(&folder);
+    let line = "filter walk.toml long.csv --resume -o out.csv --plot a.svg";
+    folder.run("filter walk.toml long.csv --resume -o out.csv").good();
+    let whole = folder.read("out.csv");
+    // the output has its name, and the checkpoint is still there
+    fs::write(folder.path("out.csv.checkpoint"), bytes).unwrap();
+    folder.run("filter walk.toml long.csv --resume -o out.csv").good();
+    assert!(folder.read("out.csv") == whole);
+    // a figure that cannot be written is no reason to lose the run
+    fs::create_dir(folder.path("a.svg.partial")).unwrap();
+    assert_eq!(folder.run(line).code, 2);
+    fs::remove_dir(folder.path("a.svg.partial")).unwrap();
+    folder.run(line).good();
+    assert!(folder.read("out.csv") == whole && folder.path("a.svg").exists());
+}
+
+#[test]
+fn a_track_that_fails_is_gone_on_with_too() {
+    let folder = folder("fails");
+    let model = WALK.replace("transition = [\"x\"]", "transition = [\"x + 0*sqrt(1e6 - x)\"]");
+    let mut rows: Vec<String> = table(9000, 1).lines().map(str::to_owned).collect();
+    rows[8000] = "8000,1e9".to_owned();
+    folder.write("fails.toml", &model).write("bad.csv", &(rows.join("\n") + "\n"));
+    for line in [
+        "filter fails.toml bad.csv",
+        "smooth fails.toml bad.csv --threads 1",
+        "smooth fails.toml bad.csv --lag 3",
+    ] {
+        let whole = folder.run(&format!("{line} -o whole.csv --resume=0"));
+        assert!(whole.code == 1 && whole.stderr.contains("8000 rows finished before"), "{}", whole.stderr);
+        let words = format!("{line} -o out.csv --resume=0");
+        let mut killed = 0;
+        for wait in 1..60 {
+            let mut child = folder.command(&words.split_whitespace().collect::<Vec<_>>()).spawn().unwrap();
+            sleep(Duration::from_millis(wait));
+            let ended = child.try_wait().unwrap().is_some();
+            child.kill().unwrap();
+            child.wait().unwrap();
+            if ended {
+                break;
+            }
+            killed += usize::from(folder.path("out.csv.checkpoint").exists());
+        }
+        assert!(killed > 0, "{line}");
+        folder.run(&words);
+        assert!(folder.read("out.csv") == folder.read("whole.csv"), "{line}");
+        fs::remove_file(folder.path("out.csv")).unwrap();
+    }
 }
 
 /// A run that was killed, and what it has left.
@@ -162,6 +217,12 @@ fn a_checkpoint_that_is_damaged_or_of_another_run_is_refused() {
         "filter walk.toml long.csv",
         "out.csv.partial is not what its checkpoint was made beside\n  help: remove",
     );
+    // a run that would leave the checkpoint behind, and one of several tracks
+    let plain = folder.run("filter walk.toml long.csv -o out.csv");
+    assert!(plain.code == 2 && plain.stderr.contains("add --resume, or remove the file"), "{}", plain.stderr);
+    folder.write("tracks.csv", &table(5, 3));
+    refused("filter walk.toml tracks.csv", &other("table of measurements"));
+    assert_eq!(folder.read("out.csv.partial"), "time,x\n");
     fs::remove_file(&path).unwrap();
     folder.run("filter walk.toml long.csv --resume -o out.csv").good();
 }
@@ -169,16 +230,19 @@ fn a_checkpoint_that_is_damaged_or_of_another_run_is_refused() {
 #[test]
 fn wrong_uses_are_told() {
     let folder = folder("wrong");
+    folder.write("out.csv.checkpoint.new", "time,z\n");
     for (line, words) in [
         ("filter model.toml data.csv --resume", "--output"),
         ("filter model.toml data.csv --resume=-1 -o out.csv", "must be a number of seconds, zero or above"),
         ("filter model.toml data.csv --resume -o /dev/null", "-o /dev/null: it is no file"),
         ("smooth model.toml data.csv --resume -o out.csv --point 0", "cannot be used with"),
+        ("filter model.toml data.csv --resume -o -", "-o -: standard output cannot be gone on with"),
+        ("filter model.toml out.csv.checkpoint.new --resume -o out.csv", "this is the file of DATA too"),
         ("filter model.toml data.csv --resume -o out.csv --plot out.csv.checkpoint.svg", ""),
     ] {
         let found = folder.run(line);
         let good = words.is_empty();
         assert!((found.code == 2) != good && found.stderr.contains(words), "{line}: {}", found.stderr);
     }
-    assert!(folder.files().iter().all(|name| !name.ends_with(".checkpoint")));
+    assert!(folder.files().iter().all(|name| !name.ends_with(".checkpoint") && name != "-"));
 }

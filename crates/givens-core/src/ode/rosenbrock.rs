@@ -10,7 +10,10 @@ use crate::scalar::{Dual2, Mask, Real, as_duals};
 
 /// Scalars of memory: N = `len`, `system` of the system's scratch, `beside` controls and parameters, its `table`.
 pub(super) const fn rosenbrock_scratch(len: usize, system: usize, beside: usize, table: usize) -> usize {
-    (STAGES + 4) * len + 2 * len * len + lu_order(len) + 3 * (2 * len + system + beside + table)
+    let vectors = len.saturating_mul(STAGES + 10).saturating_add(lu_order(len));
+    let matrices = len.saturating_mul(len).saturating_mul(2);
+    let beside = system.saturating_add(beside).saturating_add(table).saturating_mul(3);
+    vectors.saturating_add(matrices).saturating_add(beside)
 }
 
 /// The method, with the exact Jacobian.

@@ -5,7 +5,7 @@
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
-use std::fs::{File, OpenOptions};
+use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{self, BufWriter, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
@@ -55,13 +55,16 @@ impl Journal {
         identity: &Identity,
     ) -> Result<(Self, Vec<T>), JournalError> {
         let anew = "remove it, and the run begins anew";
-        let wrong = |message: String, help: &str| JournalError {
+        let wrong = |message: &str, help: &str| JournalError {
             path: path.to_owned(),
-            message,
+            message: message.to_owned(),
             help: help.to_owned(),
         };
         let told = |error: io::Error| {
-            wrong(format!("cannot be opened: {error}"), "choose a folder that you may write to")
+            if path.is_dir() {
+                return wrong("this is a folder", "move it away, or name another output");
+            }
+            wrong(&format!("cannot be opened: {error}"), "choose a folder that you may write to")
         };
         let mut file = OpenOptions::new()
             .read(true)
@@ -70,6 +73,12 @@ impl Journal {
             .truncate(false)
             .open(path)
             .map_err(told)?;
+        if is_locked(&file) {
+            return Err(wrong(
+                "another run is at work with it",
+                "wait until it is done, or name another output",
+            ));
+        }
         let mut bytes = Vec::new();
         file.read_to_end(&mut bytes).map_err(told)?;
         let Some(rest) = bytes.strip_prefix(TITLE) else {
@@ -81,34 +90,30 @@ impl Journal {
                 Some(_) => "this is a checkpoint of another version of givens",
                 None => "this is no checkpoint",
             };
-            return Err(wrong(message.to_owned(), "move it away, or name another output"));
+            return Err(wrong(message, "move it away, or name another output"));
         };
-        let damaged = |k: usize| wrong(format!("entry {} of the checkpoint is damaged", k + 1), anew);
-        let (mut entries, mut found, mut whole) = (Vec::new(), None, TITLE.len());
+        let damaged = |k: usize| wrong(&format!("entry {} of the checkpoint is damaged", k + 1), anew);
+        let (mut entries, mut begun, mut whole) = (Vec::new(), false, TITLE.len());
         for (k, entry) in (Entries { rest }).enumerate() {
             let entry = entry.ok_or_else(|| damaged(k))?;
             whole += HEAD + entry.len();
-            if k == 0 {
-                found = Some(postcard::from_bytes::<Identity>(entry).map_err(|_| damaged(k))?);
-            } else {
+            if k > 0 {
                 entries.push(postcard::from_bytes(entry).map_err(|_| damaged(k))?);
+                continue;
+            }
+            begun = true;
+            let found: Identity = postcard::from_bytes(entry).map_err(|_| damaged(k))?;
+            if found != *identity {
+                let other = found.iter().find(|pair| !identity.contains(pair)).or_else(|| identity.last());
+                let name = other.map_or("parameters", |(name, _)| name.as_str());
+                let message = format!("this is the checkpoint of another run: its {name} differs");
+                let help = "go on with what it was begun with, or remove it, and the run begins anew";
+                return Err(wrong(&message, help));
             }
         }
         file.set_len(whole as u64).and_then(|()| file.seek(SeekFrom::End(0))).map_err(told)?;
         let journal = Self { path: path.to_owned(), file: BufWriter::new(file) };
-        match found {
-            None => journal.begin(identity).map_err(told),
-            Some(found) if found == *identity => Ok((journal, entries)),
-            Some(found) => {
-                let other = found.iter().find(|pair| !identity.contains(pair)).or_else(|| identity.last());
-                let name = other.map_or("parameters", |(name, _)| name.as_str());
-                let message = format!("this is the checkpoint of another run: its {name} differs");
-                Err(wrong(
-                    message,
-                    "go on with what it was begun with, or remove it, and the run begins anew",
-                ))
-            }
-        }
+        if begun { Ok((journal, entries)) } else { journal.begin(identity).map_err(told) }
     }
 
     /// Writes title and identity, from the start of the file.
@@ -138,9 +143,7 @@ impl Journal {
     /// # Errors
     /// What the system says.
     pub fn replace<T: Serialize>(&mut self, identity: &Identity, entry: &T) -> io::Result<()> {
-        let mut path = self.path.clone().into_os_string();
-        path.push(".new");
-        let path = PathBuf::from(path);
+        let path = Self::next(&self.path);
         let file = OpenOptions::new().write(true).create(true).truncate(true).open(&path)?;
         let fresh = Self { path: path.clone(), file: BufWriter::new(file) };
         let (mut fresh, _) = fresh.begin::<T>(identity)?;
@@ -160,13 +163,27 @@ impl Journal {
         self.file.get_ref().sync_data()
     }
 
+    /// Where an entry is written that is to take the place of all.
+    pub fn next(path: &Path) -> PathBuf {
+        let mut path = path.to_owned().into_os_string();
+        path.push(".new");
+        PathBuf::from(path)
+    }
+
     /// Removes the file: the run is done.
     ///
     /// # Errors
     /// What the system says.
     pub fn remove(self) -> io::Result<()> {
+        // one that was killed while it wrote there
+        let _ = std::fs::remove_file(Self::next(&self.path));
         std::fs::remove_file(&self.path)
     }
+}
+
+/// Whether another process has the file; from now on this one has it. Where files cannot be locked, nobody is kept out.
+pub(crate) fn is_locked(file: &File) -> bool {
+    matches!(file.try_lock(), Err(TryLockError::WouldBlock))
 }
 
 fn sum(bytes: &[u8]) -> [u8; 4] {

@@ -241,6 +241,16 @@ mod tests {
         file.write_all(b"g").unwrap();
         file.finish().unwrap();
         assert_eq!((fs::read(&path).unwrap().as_slice(), partial.exists()), (&b"abcfg"[..], false));
+        // named, and killed before its checkpoint was removed
+        let mut file = Destination::resumed(&path, left).unwrap();
+        assert!(!path.exists());
+        file.write_all(b"fg").unwrap();
+        let error = Destination::resumed(&path, left).unwrap_err().to_string();
+        assert!(error.ends_with("another run is writing it"), "{error}");
+        drop(file);
+        fs::remove_file(&partial).unwrap();
+        let error = Destination::resumed(&path, left).unwrap_err().to_string();
+        assert!(error.ends_with("out.csv.partial is gone"), "{error}");
         for other in ["ab", "abd", ""] {
             fs::write(&partial, other).unwrap();
             let error = Destination::resumed(&path, left).unwrap_err().to_string();

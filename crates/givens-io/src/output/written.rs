@@ -1,8 +1,9 @@
 //! What a run that was broken off has left of a file.
 
 use super::destination::locate;
+use crate::journal::is_locked;
 use crc32fast::Hasher;
-use std::fs::{File, OpenOptions};
+use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufReader, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
@@ -27,7 +28,16 @@ impl Written {
 pub(super) fn behind(path: &Path, left: Written) -> io::Result<(PathBuf, PathBuf, File, Hasher)> {
     let (target, partial) = locate(path, ".partial")?;
     let partial = partial.ok_or_else(|| io::Error::other("it is no file"))?;
-    let file = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(&partial)?;
+    if left.bytes > 0 && !partial.exists() {
+        // killed behind its last word: the output has its name already
+        fs::rename(&target, &partial)
+            .map_err(|_| io::Error::other(format!("{} is gone", partial.display())))?;
+    }
+    let file =
+        OpenOptions::new().read(true).write(true).create(left.bytes == 0).truncate(false).open(&partial)?;
+    if is_locked(&file) {
+        return Err(io::Error::other("another run is writing it"));
+    }
     let (mut sum, mut rest, mut block) = (Hasher::new(), left.bytes, vec![0; 1 << 16]);
     let mut reader = BufReader::new(&file);
     while rest > 0 {

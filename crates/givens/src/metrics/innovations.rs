@@ -222,7 +222,7 @@ mod tests {
         assert!((found.mean - 1.6).abs() < 1e-15 && (found.mean_square - 8.0).abs() < 1e-15);
         assert!((found.correlation - (-3.0 / 3.0 / 8.0)).abs() < 1e-15);
         // χ² of one degree: 0.95 at 3.84, 0.9999 at 15.1
-        assert_eq!(sums.rows(), [6, 3, 2]);
+        assert_eq!(sums.rows(), [6, 4, 2]);
         let worst: Vec<_> = sums.worst().iter().map(|row| (row.track, row.row, row.gated)).collect();
         assert_eq!(worst, [(0, 4, true), (1, 0, false)]);
     }

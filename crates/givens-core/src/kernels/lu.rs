@@ -9,7 +9,7 @@ use crate::scalar::{Mask, Real};
 /// Scalars of `order` in [`lu`]: which rows were exchanged, and how long they were.
 #[must_use]
 pub const fn lu_order(n: usize) -> usize {
-    2 * n
+    n.saturating_mul(2)
 }
 
 outlined! {

@@ -3,10 +3,10 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, missing_docs)]
 
 use givens::filter::{Carried, Fault, Filter, Gaussian, InvalidCovariance, Method, Over, Quantity, SrCkf};
-use givens::filter::{SrEkf, StepError, factor_of_covariance};
+use givens::filter::{SrCdUkf1, SrEkf, StepError, factor_of_covariance};
 use givens::metrics::{chi_squared_band, chi_squared_cdf, chi_squared_quantile, nees};
 use givens::model::zoo::{CoordinatedTurn, RangeBearing, Turn3d};
-use givens::model::{At, Noise, Observation, Transition};
+use givens::model::{At, Noise, Observation, Sde, Transition};
 use givens::ode::Steps;
 use givens::scalar::Real;
 use givens::simulate::{Path, Paths, Scheme, Stream, simulate, simulate_continuous};
@@ -65,6 +65,33 @@ fn an_innovation_that_overflows_is_an_error_and_not_a_measurement_that_says_noth
     let fault = filter.update(&Steep, &[3.0]).unwrap_err().fault;
     assert_eq!(fault, Fault::NotFinite { quantity: Quantity::Innovation, component: 0 });
     assert_eq!(filter.mean(), [0.0, 0.0]);
+}
+
+/// A state that stays but for its noise.
+struct Pushed;
+
+impl Sde for Pushed {
+    fn states(&self) -> usize {
+        1
+    }
+    fn noises(&self) -> usize {
+        1
+    }
+    fn drift<T: Real>(&self, _: &At<T>, _: &[T], out: &mut [T]) {
+        out[0] = T::zero();
+    }
+    fn diffusion<T: Real>(&self, _: &At<T>, _: &[T], out: &mut [T]) {
+        out[0] = T::one();
+    }
+}
+
+#[test]
+fn a_step_so_long_that_its_noise_overflows_is_an_error() {
+    // the cube of the gap's root is beyond the largest number
+    let mut filter = SrCdUkf1::default().start(&Pushed, 0.0, &unit(1)).unwrap();
+    let fault = filter.predict(1e300).unwrap_err().fault;
+    assert_eq!(fault, Fault::NotFinite { quantity: Quantity::Diffusion, component: 0 });
+    assert_eq!((filter.mean(), filter.factor()), (&[0.0][..], &[1.0][..]));
 }
 
 #[test]

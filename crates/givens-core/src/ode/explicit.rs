@@ -8,7 +8,7 @@ use crate::scalar::Real;
 
 /// Scalars of memory of the slopes.
 pub(super) const fn explicit_scratch(tableau: &Tableau, len: usize) -> usize {
-    (tableau.stages + 1) * len
+    len.saturating_mul(tableau.stages + 1)
 }
 
 /// A method given by its tableau.

@@ -165,7 +165,7 @@ impl Integrator {
             None => rosenbrock_scratch(len, system, beside, table),
         };
         // the state at the end of a step, its error, dense output
-        5 * len + system + method
+        len.saturating_mul(5).saturating_add(system).saturating_add(method)
     }
 
     /// Whether several lanes may be integrated together: the number of steps depends on none of them.

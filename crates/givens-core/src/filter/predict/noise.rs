@@ -24,6 +24,8 @@ pub(super) struct Stacked<'a, T> {
     /// Columns of [D E], and of [D E N] so far.
     width: usize,
     columns: usize,
+    /// The sum of the magnitudes of N: finite if all of it is.
+    size: T,
     /// The negative columns of E, n rows of `all_lost`, of which the rule's own are the first.
     minus: &'a mut [T],
     lost: usize,
@@ -84,7 +86,7 @@ impl<'a, T: Real> Stacked<'a, T> {
             put_columns(minus, all_lost, 0, own_lost, lost);
             entries = (below, below_lost);
         }
-        Ok(Self { mean, entries, dev, stride, width, columns: width, minus, lost, all_lost })
+        Ok(Self { mean, entries, dev, stride, width, columns: width, size: T::zero(), minus, lost, all_lost })
     }
 
     /// Adds the columns of a matrix n × q that the state does not move.
@@ -122,6 +124,7 @@ impl<'a, T: Real> Stacked<'a, T> {
             sum += x.abs();
         }
         self.columns += usize::from(!sum.same(T::zero()).all());
+        self.size += sum;
     }
 
     /// Ends the step.
@@ -132,9 +135,17 @@ impl<'a, T: Real> Stacked<'a, T> {
         back: Option<&mut Backward<T>>,
         scratch: &mut [T],
     ) -> Result<T::Mask, Fault> {
-        let Self { mean, dev, columns, stride, minus, all_lost, .. } = self;
+        let Self { mean, dev, columns, stride, width, size, minus, all_lost, .. } = self;
+        // a power of a long step overflows where no number of the model does
+        let endless = !size.finite();
+        if endless.all() {
+            let is_wild = |row: &[T]| row[width..columns].iter().any(|x| (!x.finite()).all());
+            let component = dev.chunks_exact(stride.max(1)).position(is_wild).unwrap_or(0);
+            return Err(Fault::NotFinite { quantity: Quantity::Diffusion, component });
+        }
         let mean = &mean[..belief.mean.len()];
-        settle::<T, F>(Moved { mean, dev, columns, stride, minus, lost: all_lost }, belief, back, scratch)
+        let moved = Moved { mean, dev, columns, stride, minus, lost: all_lost };
+        Ok(settle::<T, F>(moved, belief, back, scratch)? | endless)
     }
 }
 

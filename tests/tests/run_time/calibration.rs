@@ -1,5 +1,5 @@
 //! Simulation-based calibration of the smoothers: where the prior draws the truth, its rank among draws of the posterior is
-//! uniform (Talts, Betancourt, Simpson, Vehtari & Gelman 2018, Validating Bayesian inference algorithms).
+//! uniform (Talts, Betancourt, Simpson, Vehtari and Gelman, Validating Bayesian inference algorithms).
 
 use super::simulated::{Drawn, continuous, discrete};
 use givens::Samples;

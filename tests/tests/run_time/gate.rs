@@ -2,7 +2,7 @@
 //! and the goal.
 
 use super::packs::{alone, apart, steady, tracks_of};
-use super::streams::{agrees, data};
+use super::streamed::{agrees, data};
 use givens::batch::{Batch, Track};
 use givens::registry::{Choice, Precision};
 use givens::{Data, Draws, Estimates, Goal, Outcome, Row};

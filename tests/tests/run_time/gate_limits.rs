@@ -1,6 +1,6 @@
 //! The gate's limits: where they lie, that nothing changes where nothing is beyond them, and what is no probability.
 
-use super::streams::data;
+use super::streamed::data;
 use core::ops::ControlFlow;
 use givens::batch::{Batch, Track};
 use givens::filter::{Fault, StepError};

@@ -12,4 +12,5 @@ mod samples;
 mod simulated;
 mod single;
 mod snapshots;
+mod streamed;
 mod streams;

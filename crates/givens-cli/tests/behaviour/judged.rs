@@ -128,5 +128,5 @@ fn a_failure_stands_on_the_page() {
     assert_eq!(found.code, 1);
     assert!(folder.read("page.html").contains("the transition of `x` is not a finite number"));
     let found = folder.run("filter walk.toml bad.csv -o out.csv --report out.csv");
-    assert!(found.code == 2 && found.stderr.contains("this is the file of -o too"), "{}", found.stderr);
+    assert!(found.code == 2 && found.stderr.contains("the name must end in .html"), "{}", found.stderr);
 }

@@ -57,7 +57,9 @@ fn one_entry_takes_the_place_of_all() {
     journal.replace(&identity("1"), &entries[1]).unwrap();
     journal.append(&entries[0]).unwrap();
     journal.settle().unwrap();
-    assert_eq!(bits(&open(&path).unwrap().1), bits(&[entries[1].clone(), entries[0].clone()]));
+    drop(journal);
+    let (journal, found) = open(&path).unwrap();
+    assert_eq!(bits(&found), bits(&[entries[1].clone(), entries[0].clone()]));
     journal.remove().unwrap();
 }
 
@@ -73,6 +75,8 @@ fn whatever_is_cut_off_leaves_the_entries_before() {
         // and it goes on behind them
         journal.append(&entries[0]).unwrap();
         journal.settle().unwrap();
+        assert!(open(&path).unwrap_err().to_string().contains("another run is at work with it"));
+        drop(journal);
         assert_eq!(open(&path).unwrap().1.len(), found.len() + 1, "{length}");
     }
     fs::remove_file(&path).unwrap();

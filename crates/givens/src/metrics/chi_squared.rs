@@ -41,9 +41,14 @@ fn bisect(distribution: &ChiSquared, dof: f64, p: f64) -> f64 {
 }
 
 /// The probability that a χ² variable of `dof` degrees of freedom stays below `x`; NaN for no degrees of freedom, or more
-/// than 10¹⁰.
+/// than 10¹⁰, and for an `x` that is none.
 pub fn chi_squared_cdf(dof: f64, x: f64) -> f64 {
-    distribution(dof).map_or(f64::NAN, |distribution| distribution.cdf(x.max(0.0)))
+    match distribution(dof) {
+        // half of the smallest numbers is zero, which the library takes for no number of its range
+        Some(_) if x < f64::MIN_POSITIVE => 0.0,
+        Some(distribution) if !x.is_nan() => distribution.cdf(x),
+        _ => f64::NAN,
+    }
 }
 
 /// The central 95 % band of a χ² variable of `dof` degrees of freedom.
@@ -67,6 +72,8 @@ mod tests {
             assert!((found / expected - 1.0).abs() < 1e-9, "{dof} {p}: {found}");
         }
         assert_eq!(chi_squared_quantile(3.0, 0.0), 0.0);
+        assert_eq!([5e-324, -1.0, f64::INFINITY].map(|x| chi_squared_cdf(2.0, x)), [0.0, 0.0, 1.0]);
+        assert!(chi_squared_cdf(2.0, f64::NAN).is_nan());
         assert!(chi_squared_quantile(0.0, 0.5).is_nan() && chi_squared_quantile(1.0, 1.5).is_nan());
     }
 

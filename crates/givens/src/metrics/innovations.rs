@@ -61,7 +61,8 @@ pub struct Outlier {
 /// let (turn, radar) = (CoordinatedTurn::default(), RangeBearing::published());
 /// let prior = Gaussian::from_std(&[1000.0, 300.0, 1000.0, 0.0, -0.05], &[10.0, 3.2, 10.0, 3.2, 0.01])?;
 /// let mut data = Data::new(2).starting_at(0.0);
-/// data.push(1.0, &[1640.0, 0.65])?.push(2.0, &[1890.0, 0.56])?;
+/// data.push(1.0, &[1640.0, 0.65])?;
+/// data.push(2.0, &[1890.0, 0.56])?;
 /// let est = givens::filter(&SrCkf::default(), &turn, &radar, &data, &prior)?;
 /// let mut sums = InnovationSums::new(2);
 /// sums.add(0, 0, &est);

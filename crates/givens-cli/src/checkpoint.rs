@@ -69,14 +69,14 @@ impl Checkpoint {
 
     /// Adds what was done since.
     pub fn append<T: Serialize>(&mut self, done: &T) -> io::Result<()> {
-        self.journal.append(done).and_then(|()| self.journal.settle()).map_err(told)?;
+        self.journal.append(done).and_then(|()| self.journal.settle()).map_err(|error| told(&error))?;
         self.last = Instant::now();
         Ok(())
     }
 
     /// Writes where the run stands, in place of what was written before.
     pub fn replace<T: Serialize>(&mut self, stand: &T) -> io::Result<()> {
-        self.journal.replace(&self.identity, stand).map_err(told)?;
+        self.journal.replace(&self.identity, stand).map_err(|error| told(&error))?;
         self.last = Instant::now();
         Ok(())
     }
@@ -89,7 +89,7 @@ impl Checkpoint {
     }
 }
 
-fn told(error: io::Error) -> io::Error {
+fn told(error: &io::Error) -> io::Error {
     io::Error::new(error.kind(), format!("its checkpoint: {error}"))
 }
 

@@ -50,7 +50,9 @@ pub fn page(
             Shown(summary.log_likelihood)
         ),
     );
-    failures.iter().for_each(|failure| page.say(Tone::Look, failure));
+    for failure in failures {
+        page.say(Tone::Look, failure);
+    }
     let [measured, ..] = innovations.rows();
     page.heading("Are the errors as large as the filter says?");
     let (tone, words) = size(&summary.consistency, usual(plan.choice.gate, &summary.consistency, measured));

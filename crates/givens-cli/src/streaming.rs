@@ -102,7 +102,8 @@ impl<'p> Streaming<'p> {
         match from {
             Some(stand) => (self.sums, marks) = (stand.sums, stand.marks),
             None => {
-                AnswerWriter { tracks: tracks.as_ref().unwrap_or(&plan.tracks), ..self.writer }.header(out)?
+                AnswerWriter { tracks: tracks.as_ref().unwrap_or(&plan.tracks), ..self.writer }
+                    .header(out)?;
             }
         }
         let (model, sensors, prior) = (&plan.model, &plan.model.observation, &plan.beginnings[0].prior);

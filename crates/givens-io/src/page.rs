@@ -58,8 +58,8 @@ impl Page {
             return;
         }
         let line = |tag: &str, cells: &mut dyn Iterator<Item = &str>| {
-            let cells: String = cells.map(|cell| format!("<{tag}>{}</{tag}>", escaped(cell))).collect();
-            format!("<tr>{cells}</tr>\n")
+            let cells: Vec<String> = cells.map(|cell| format!("<{tag}>{}</{tag}>", escaped(cell))).collect();
+            format!("<tr>{}</tr>\n", cells.concat())
         };
         self.body.push_str("<table>\n");
         self.body.push_str(&line("th", &mut header.iter().copied()));

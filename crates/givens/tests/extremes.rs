@@ -61,7 +61,7 @@ fn unit(n: usize) -> Gaussian {
 
 #[test]
 fn an_innovation_that_overflows_is_an_error_and_not_a_measurement_that_says_nothing() {
-    let mut filter = SrEkf::default().start(&Still, 0.0, &unit(2)).unwrap();
+    let mut filter = SrEkf::default().start(&Still, 0.0, unit(2)).unwrap();
     let fault = filter.update(&Steep, &[3.0]).unwrap_err().fault;
     assert_eq!(fault, Fault::NotFinite { quantity: Quantity::Innovation, component: 0 });
     assert_eq!(filter.mean(), [0.0, 0.0]);
@@ -88,7 +88,7 @@ impl Sde for Pushed {
 #[test]
 fn a_step_so_long_that_its_noise_overflows_is_an_error() {
     // the cube of the gap's root is beyond the largest number
-    let mut filter = SrCdUkf1::default().start(&Pushed, 0.0, &unit(1)).unwrap();
+    let mut filter = SrCdUkf1::default().start(&Pushed, 0.0, unit(1)).unwrap();
     let fault = filter.predict(1e300).unwrap_err().fault;
     assert_eq!(fault, Fault::NotFinite { quantity: Quantity::Diffusion, component: 0 });
     assert_eq!((filter.mean(), filter.factor()), (&[0.0][..], &[1.0][..]));
@@ -96,7 +96,7 @@ fn a_step_so_long_that_its_noise_overflows_is_an_error() {
 
 #[test]
 fn a_gap_of_more_than_a_billion_steps_is_refused() {
-    let mut filter = SrCkf::default().start(&Still, 0.0, &unit(2)).unwrap();
+    let mut filter = SrCkf::default().start(&Still, 0.0, unit(2)).unwrap();
     let fault = filter.predict(1e12).unwrap_err().fault;
     assert!(matches!(fault, Fault::Mismatch { why } if why.contains("same unit")), "{fault}");
     filter.predict(1000.0).unwrap();
@@ -205,5 +205,5 @@ fn quantiles_of_more_freedom_than_has_digits_are_none() {
     assert!(chi_squared_band(f64::INFINITY).0.is_nan());
     let (low, high) = chi_squared_band(1e8);
     // a normal variable of variance 2 dof
-    assert!((low - (1e8 - 1.959964 * 2e8_f64.sqrt())).abs() < 10.0 && high > 1e8, "{low} {high}");
+    assert!((low - (1e8 - 1.959_964 * 2e8_f64.sqrt())).abs() < 10.0 && high > 1e8, "{low} {high}");
 }

@@ -17,7 +17,9 @@ const WORKSPACES: &[&str] = &["Cargo.toml", "examples/embedded/Cargo.toml"];
 pub fn run(root: &Path) -> bool {
     match checked(root) {
         Ok(findings) => {
-            findings.iter().for_each(|finding| say(finding));
+            for finding in &findings {
+                say(finding);
+            }
             findings.is_empty() && denied(root)
         }
         Err(message) => {

@@ -82,7 +82,7 @@ fn run(args: &FilterArgs, task: &str, goals: impl Fn(&Plan) -> Result<Vec<Goal>,
         let (summary, failures) = (alone.summary(), alone.failure().map_or(&[][..], core::slice::from_ref));
         pages.write(&plan, &summary, alone.innovations(), failures, alone.shown().as_slice())?;
         sink.map_or(Ok(()), Sink::finish)?;
-        kept.map(Checkpoint::remove);
+        kept.into_iter().for_each(Checkpoint::remove);
         report::closing(&plan, &summary);
         return if failures.is_empty() { Ok(()) } else { Err(Stop::failures(failures)) };
     }
@@ -103,7 +103,7 @@ fn run(args: &FilterArgs, task: &str, goals: impl Fn(&Plan) -> Result<Vec<Goal>,
     })?;
     let summary = session.summary(&plan);
     pages.write(&plan, &summary, session.innovations.as_ref(), &session.failures, &session.shown())?;
-    kept.map(Checkpoint::remove);
+    kept.into_iter().for_each(Checkpoint::remove);
     report::closing(&plan, &summary);
     if session.failures.is_empty() { Ok(()) } else { Err(Stop::failures(&session.failures)) }
 }

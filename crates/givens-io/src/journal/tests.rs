@@ -2,7 +2,7 @@
 
 use super::{HEAD, Journal, JournalError, TITLE};
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 type Entry = (u32, Vec<f64>);
 
@@ -16,7 +16,7 @@ fn identity(data: &str) -> Vec<(String, String)> {
     vec![("model".into(), "7".into()), ("data".into(), data.into())]
 }
 
-fn open(path: &PathBuf) -> Result<(Journal, Vec<Entry>), JournalError> {
+fn open(path: &Path) -> Result<(Journal, Vec<Entry>), JournalError> {
     Journal::open(path, &identity("1"))
 }
 
@@ -25,7 +25,7 @@ fn bits(entries: &[Entry]) -> Vec<Vec<u64>> {
 }
 
 /// Three entries, written in two sittings.
-fn written(path: &PathBuf) -> Vec<Entry> {
+fn written(path: &Path) -> Vec<Entry> {
     let entries = vec![(1, vec![0.1, f64::NAN]), (2, vec![-0.0, f64::MIN_POSITIVE / 4.0]), (3, vec![])];
     let (mut journal, none) = open(path).unwrap();
     assert!(none.is_empty());

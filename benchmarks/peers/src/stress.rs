@@ -52,7 +52,8 @@ fn matrix<T: FloatScalar, const R: usize, const C: usize>(of: &Value) -> Matrix<
 
 fn climb<T: FloatScalar, const N: usize, const D: usize>(name: &str, rung: &Value) -> Value {
     let (mean, cov) = (vector::<T, N>(&rung["mean"]), matrix::<T, N, N>(&rung["cov"]));
-    let (h, r, angle) = (matrix::<T, D, N>(&rung["h"]), matrix::<T, D, D>(&rung["r"]), rung.get("period").is_some());
+    let (h, r, angle) =
+        (matrix::<T, D, N>(&rung["h"]), matrix::<T, D, D>(&rung["r"]), rung.get("period").is_some());
     let observe = |x: &Vector<T, N>| -> Vector<T, D> {
         let z = h * *x;
         if angle { Vector::from_array(core::array::from_fn(|i| z[i].sin().atan2(z[i].cos()))) } else { z }

@@ -27,7 +27,7 @@ fn survives(folder: &Folder, line: &str, output: &str, times: usize) {
     let resumed = format!("{line} --resume=0 -o {output}");
     let words: Vec<&str> = resumed.split_whitespace().collect();
     let checkpoint = folder.path(&format!("{output}.checkpoint"));
-    let (mut killed, mut wait) = (0, Duration::from_millis(20));
+    let (mut killed, mut wait) = (0, Duration::from_millis(2));
     for _ in 0..200 {
         let before = fs::read(&checkpoint).ok();
         let mut child = folder.command(&words).spawn().unwrap();
@@ -36,7 +36,7 @@ fn survives(folder: &Folder, line: &str, output: &str, times: usize) {
             sleep(Duration::from_millis(1));
         }
         sleep(wait);
-        wait = wait * 3 / 2;
+        wait = wait * 5 / 4;
         let ended = child.try_wait().unwrap().is_some();
         child.kill().unwrap();
         child.wait().unwrap();
@@ -74,7 +74,7 @@ fn survives(folder: &Folder, line: &str, output: &str, times: usize) {
 fn a_filter_that_is_killed_goes_on_to_the_same_bytes() {
     let folder = folder("filter");
     folder.write("long.csv", &table(40_000, 1)).write("free.toml", &WALK.replace("step = 1\n", ""));
-    survives(&folder, "filter walk.toml long.csv", "out.csv", 3);
+    survives(&folder, "filter walk.toml long.csv", "out.csv", 2);
     survives(&folder, "filter free.toml long.csv --at every:0.5", "at.csv", 1);
     survives(&folder, "filter walk.toml long.csv --set gate=0.9 --plot a.svg", "out.jsonl", 1);
 }
@@ -83,7 +83,7 @@ fn a_filter_that_is_killed_goes_on_to_the_same_bytes() {
 fn a_smoother_that_is_killed_goes_on_to_the_same_bytes() {
     let folder = folder("smoother");
     folder.write("long.csv", &table(40_000, 1)).write("free.toml", &WALK.replace("step = 1\n", ""));
-    survives(&folder, "smooth walk.toml long.csv", "out.csv", 4);
+    survives(&folder, "smooth walk.toml long.csv", "out.csv", 2);
     survives(&folder, "smooth free.toml long.csv --at every:0.5", "at.csv", 2);
     survives(&folder, "smooth walk.toml long.csv --lag 7", "lag.csv", 1);
 }

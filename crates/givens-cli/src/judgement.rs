@@ -55,7 +55,8 @@ pub fn page(
     }
     let [measured, ..] = innovations.rows();
     page.heading("Are the errors as large as the filter says?");
-    let (tone, words) = size(&summary.consistency, usual(plan.choice.gate, &summary.consistency, measured));
+    let taken = measured - summary.gated.count().min(measured);
+    let (tone, words) = size(&summary.consistency, usual(plan.choice.gate, &summary.consistency, taken));
     page.say(tone, &words);
     if measured > 0 {
         if measured < FEW {
@@ -75,8 +76,8 @@ pub fn page(
 }
 
 /// The mean NIS per degree of freedom of a right model: less than one where a gate keeps the largest out.
-fn usual(gate: Option<f64>, consistency: &Consistency, measured: usize) -> f64 {
-    let dof = consistency.dof as f64 / measured.max(1) as f64;
+fn usual(gate: Option<f64>, consistency: &Consistency, taken: usize) -> f64 {
+    let dof = consistency.dof as f64 / taken.max(1) as f64;
     match gate {
         Some(p) if dof > 0.0 => chi_squared_cdf(dof + 2.0, chi_squared_quantile(dof, p)) / p,
         _ => 1.0,

@@ -4,7 +4,6 @@
 //! Modules in the order in which they may use each other: [`scalar`], [`kernels`], [`model`], [`rule`], [`ode`], [`filter`],
 //! [`smoother`].
 #![cfg_attr(not(any(feature = "std", test)), no_std)]
-#![deny(unsafe_code)]
 
 #[cfg(feature = "alloc")]
 extern crate alloc;

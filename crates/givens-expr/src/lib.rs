@@ -24,7 +24,6 @@
 //! assert!((out[2] - 3.0 / 5.0).abs() < 1e-15 && (out[3] - 5.0 / 13.0).abs() < 1e-15);
 //! # Ok::<(), Box<dyn core::error::Error>>(())
 //! ```
-#![deny(unsafe_code)]
 
 mod call;
 mod derive;

@@ -11,9 +11,10 @@ use crate::plan::Plan;
 use crate::report::{self, Summary};
 use crate::session::{Manner, Session};
 use crate::streaming::{Stand, Streaming};
+use core::time::Duration;
 use givens::Goal;
 use givens::metrics::InnovationSums;
-use givens_io::{Format, Journal, Written, write_answers};
+use givens_io::{Format, Identity, Journal, Written, write_answers};
 use std::path::{Path, PathBuf};
 
 /// Estimates each state from the measurements up to it.
@@ -50,62 +51,82 @@ fn run(args: &FilterArgs, task: &str, goals: impl Fn(&Plan) -> Result<Vec<Goal>,
     let plan = Plan::new(args)?;
     let goals = goals(&plan)?;
     let at = args.at.as_deref().map(|text| Instants::read(text, &plan)).transpose()?;
-    let identity = || checkpoint::identity(args, &plan, task, format);
     let canvases = args.plots.iter().map(|path| Ok((path, Sink::open(Some(path))?)));
     let pages = Pages {
         canvases: canvases.collect::<Result<Vec<_>, Stop>>()?,
         report: args.report.as_deref().map(|path| Sink::open(Some(path))).transpose()?,
     };
-    let manner = Manner {
-        at: at.as_ref(),
-        threads: args.threads,
-        whole: format == Format::Jsonl,
-        judged: args.report.is_some(),
-    };
-    if let [goal] = goals[..] {
-        let mut alone = Streaming::new(&plan, goal, manner, format, pages.drawn())?;
-        let (mut kept, mut left) = (None, None);
-        let mut sink = match resumable {
-            Some((every, output)) => {
-                let (checkpoint, stands) = Checkpoint::open::<Stand>(output, identity(), every)?;
-                (kept, left) = (Some(checkpoint), stands.into_iter().next_back());
-                Sink::resumed(output, left.as_ref().map_or(Written::default(), |stand| stand.output))?
-            }
-            None => Sink::open(output)?,
-        };
-        if left.is_some() {
-            say("goes on from the checkpoint of a run that was broken off");
-        }
-        sink.fill(|out| alone.run(out, left, kept.as_mut()))?;
-        // what may be gone on with has its name last
-        let sink = if kept.is_some() { Some(sink) } else { sink.finish().map(|()| None)? };
-        let (summary, failures) = (alone.summary(), alone.failure().map_or(&[][..], core::slice::from_ref));
-        pages.write(&plan, &summary, alone.innovations(), failures, alone.shown().as_slice())?;
-        sink.map_or(Ok(()), Sink::finish)?;
-        kept.into_iter().for_each(Checkpoint::remove);
-        report::closing(&plan, &summary);
-        return if failures.is_empty() { Ok(()) } else { Err(Stop::failures(failures)) };
+    let whole = format == Format::Jsonl;
+    let manner = Manner { at: at.as_ref(), threads: args.threads, whole, judged: args.report.is_some() };
+    let identity = checkpoint::identity(args, &plan, task, format);
+    let target = Target { output, format, resumable: resumable.map(|(every, path)| (every, path, identity)) };
+    match goals[..] {
+        [goal] => alone(&plan, goal, manner, target, pages),
+        _ => together(&plan, &goals, manner, target, pages),
     }
+}
+
+/// Where the answers go, and how.
+struct Target<'a> {
+    output: Option<&'a Path>,
+    format: Format,
+    /// How often a checkpoint is kept beside the output, and what it is of.
+    resumable: Option<(Duration, &'a Path, Identity)>,
+}
+
+/// A single track, written as it is finished.
+fn alone(plan: &Plan, goal: Goal, manner: Manner, target: Target, pages: Pages) -> Result<(), Stop> {
+    let mut run = Streaming::new(plan, goal, manner, target.format, pages.drawn())?;
+    let (mut kept, mut left) = (None, None);
+    let mut sink = match target.resumable {
+        Some((every, output, identity)) => {
+            let (checkpoint, stands) = Checkpoint::open::<Stand>(output, identity, every)?;
+            (kept, left) = (Some(checkpoint), stands.into_iter().next_back());
+            Sink::resumed(output, left.as_ref().map_or(Written::default(), |stand| stand.output))?
+        }
+        None => Sink::open(target.output)?,
+    };
+    if left.is_some() {
+        say(GOES_ON);
+    }
+    sink.fill(|out| run.run(out, left, kept.as_mut()))?;
+    // what may be gone on with has its name last
+    let sink = if kept.is_some() { Some(sink) } else { sink.finish().map(|()| None)? };
+    let (summary, failures) = (run.summary(), run.failure().map_or(&[][..], core::slice::from_ref));
+    pages.write(plan, &summary, run.innovations(), failures, run.shown().as_slice())?;
+    sink.map_or(Ok(()), Sink::finish)?;
+    ended(plan, &summary, failures, kept)
+}
+
+/// Tracks side by side, written when all are done.
+fn together(plan: &Plan, goals: &[Goal], manner: Manner, target: Target, pages: Pages) -> Result<(), Stop> {
     let (mut kept, mut done) = (None, Vec::new());
-    if let Some((every, output)) = resumable {
-        let (checkpoint, found) = Checkpoint::open(output, identity(), every)?;
+    if let Some((every, output, identity)) = target.resumable {
+        let (checkpoint, found) = Checkpoint::open(output, identity, every)?;
         (kept, done) = (Some(checkpoint), found);
     }
     if !done.is_empty() {
-        say("goes on from the checkpoint of a run that was broken off");
+        say(GOES_ON);
     }
-    let sink = Sink::open(output)?;
-    let session = Session::resume(&plan, &plan.choice, &goals, manner, done, kept.as_mut())?;
-    let (model, gated) = (&plan.model, plan.choice.gate.is_some());
-    sink.write(|out| match &at {
-        Some(at) => write_answers(out, format, model, &at.tracks(&plan), &session.at, gated, args.threads),
-        None => write_answers(out, format, model, &plan.tracks, &session.answers, gated, args.threads),
+    let sink = Sink::open(target.output)?;
+    let session = Session::resume(plan, &plan.choice, goals, manner, done, kept.as_mut())?;
+    let (model, format, gated) = (&plan.model, target.format, plan.choice.gate.is_some());
+    sink.write(|out| match manner.at {
+        Some(at) => write_answers(out, format, model, &at.tracks(plan), &session.at, gated, manner.threads),
+        None => write_answers(out, format, model, &plan.tracks, &session.answers, gated, manner.threads),
     })?;
-    let summary = session.summary(&plan);
-    pages.write(&plan, &summary, session.innovations.as_ref(), &session.failures, &session.shown())?;
+    let summary = session.summary(plan);
+    pages.write(plan, &summary, session.innovations.as_ref(), &session.failures, &session.shown())?;
+    ended(plan, &summary, &session.failures, kept)
+}
+
+const GOES_ON: &str = "goes on from the checkpoint of a run that was broken off";
+
+/// The last words, when all is written.
+fn ended(plan: &Plan, summary: &Summary, failures: &[String], kept: Option<Checkpoint>) -> Result<(), Stop> {
     kept.into_iter().for_each(Checkpoint::remove);
-    report::closing(&plan, &summary);
-    if session.failures.is_empty() { Ok(()) } else { Err(Stop::failures(&session.failures)) }
+    report::closing(plan, summary);
+    if failures.is_empty() { Ok(()) } else { Err(Stop::failures(failures)) }
 }
 
 /// The figures and the report of a run.

@@ -88,20 +88,22 @@ impl InnovationSums {
     }
 
     /// Adds rows of a track, the first of which is its row `from`. Those of one track follow each other. Rows beyond the gate are
-    /// counted, and looked at no further.
+    /// counted, and looked at no further. Estimates of another number of measures add nothing.
     pub fn add(&mut self, track: usize, from: usize, est: &Estimates) {
+        if est.measures() != self.measures.len() {
+            return;
+        }
         if track != self.track {
             self.track = track;
             self.measures.iter_mut().for_each(|measure| measure.last = None);
         }
-        let d = self.measures.len();
         for row in 0..est.len() {
             let gated = est.gated.get(row).copied().unwrap_or(false);
             self.note(Outlier { track, row: from + row, nis: est.nis[row], dof: est.nis_dof[row], gated });
             if gated {
                 continue;
             }
-            let (nu, cov) = (&est.innovation[row * d..], &est.innovation_cov[row * d * d..]);
+            let (nu, cov, d) = (est.innovation(row), est.innovation_cov(row), self.measures.len());
             for (i, measure) in self.measures.iter_mut().enumerate() {
                 if !nu[i].is_nan() {
                     measure.add(nu[i] / cov[i * d + i].sqrt());

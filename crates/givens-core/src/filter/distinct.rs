@@ -1,7 +1,8 @@
 //! Whether the points of a rule can be told from the mean, in numbers of a given length.
 
 use super::error::Fault;
-use super::update::Rows;
+use super::quantity::Quantity;
+use super::update::Posterior;
 use crate::kernels::{Health, plus_magnitudes};
 use crate::scalar::{Mask, Real};
 
@@ -76,39 +77,41 @@ pub(super) fn note<T: Real>(mean: &[T], factor: &[T], before: &mut [T]) {
     }
 }
 
-/// After an update. In the lanes of `exact`, where a measure had no noise, what is left of a standard deviation that it
-/// has made small may be the rounding of what it was and of its mean: that much is its floor. Elsewhere, a component that
-/// has become known to a few spacings of numbers at its mean before has a mean of rounding: nothing is changed then.
+/// After an update. A mean, or a row of the root, that is finite in no lane is a fault: sums of squares may overflow where
+/// none of the numbers does. In the lanes of `exact`, where a measure had no noise, what is left of a standard deviation
+/// that it has made small may be the rounding of what it was and of its mean: that much is its floor. Elsewhere, a
+/// component that has become known to a few spacings of numbers at its mean before has a mean of rounding. On a fault
+/// nothing is changed but `before`.
 #[inline(always)]
 pub(super) fn judge<T: Real>(
-    before: &[T],
-    factor: Rows<T>,
+    before: &mut [T],
+    posterior: &Posterior<T>,
     exact: T::Mask,
     floor: &mut [T],
 ) -> Result<T::Mask, Fault> {
-    let n = floor.len();
-    let (means, deviations) = before.split_at(n);
-    let (rounding, half) = (T::of(64.0 * n as f64 * T::EPSILON), T::of(0.5));
-    let mut health = Health::<T>::good();
-    // once to judge, and once to write it down
-    for write in [false, true] {
-        for (i, floor) in floor.iter_mut().enumerate() {
-            let now = deviation(factor.row(i, i + 1));
-            let learnt = now.lt(half * deviations[i]);
-            let left = rounding * (deviations[i] + means[i].abs());
-            let raised = T::select(exact & learnt, floor.max(left), *floor);
-            if write {
-                *floor = raised;
-            } else {
-                let vague = now.lt(T::of(SPACINGS * T::EPSILON) * means[i].abs()) & raised.lt(now);
-                health.note(learnt & vague, i);
-            }
+    let (means, deviations) = before.split_at_mut(floor.len());
+    let (rounding, half) = (T::of(64.0 * floor.len() as f64 * T::EPSILON), T::of(0.5));
+    let (mut health, mut lost) = (Health::<T>::good(), T::Mask::splat(false));
+    for (i, &mean) in posterior.mean.iter().enumerate() {
+        let now = deviation(posterior.factor.row(i, i + 1));
+        let endless = !(now + mean.abs()).finite();
+        if endless.all() {
+            return Err(Fault::NotFinite { quantity: Quantity::Estimate, component: i });
         }
-        if let Some(component) = health.failed() {
-            return Err(Fault::Indistinct { component });
-        }
+        lost = lost | endless;
+        let was = means[i].abs();
+        let learnt = now.lt(half * deviations[i]);
+        let left = rounding * (deviations[i] + was);
+        // the floor that it will have takes the place of its mean before
+        means[i] = T::select(exact & learnt, floor[i].max(left), floor[i]);
+        let vague = now.lt(T::of(SPACINGS * T::EPSILON) * was) & means[i].lt(now);
+        health.note(learnt & vague, i);
     }
-    Ok(health.sick)
+    if let Some(component) = health.failed() {
+        return Err(Fault::Indistinct { component });
+    }
+    floor.copy_from_slice(means);
+    Ok(lost | health.sick)
 }
 
 /// The sum of a row's magnitudes: a standard deviation, or somewhat more.

@@ -266,9 +266,8 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
         if gated {
             scores[1] = T::zero();
         } else if let Some(posterior) = updated.posterior {
-            let judged = |lost| Ok(lost | judge(before, posterior.factor, updated.exact, floor)?);
-            let more = posterior.lost().and_then(judged).inspect_err(|_| scores.fill(T::zero()))?;
-            sick = sick | more;
+            let more = judge(before, &posterior, updated.exact, floor);
+            sick = sick | more.inspect_err(|_| scores.fill(T::zero()))?;
             posterior.settle(&mut belief, &mut learnt);
         }
         self.present = present;

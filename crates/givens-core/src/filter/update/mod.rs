@@ -12,13 +12,11 @@ mod square_root;
 pub use innovation::Innovation;
 pub(crate) use innovation::InnovationMut;
 pub use learnt::Learnt;
-pub(crate) use posterior::{Posterior, Rows};
+pub(crate) use posterior::Posterior;
 
 use super::error::Fault;
 use super::form::{Belief, Form};
-use super::quantity::Quantity;
 use crate::filter::memory::larger;
-use crate::kernels::wild_row;
 use crate::model::{At, Observation};
 use crate::rule::{Rule, Shape, spread_scratch};
 use crate::scalar::{Mask, Real};
@@ -118,9 +116,6 @@ pub(crate) fn update<'a, T: Real, H: Observation, R: Rule, F: Form>(
         covariance::update(&sensed, belief, innovation, scratch)
     };
     let (posterior, more) = done.map_err(|fault| measurement.in_whole(fault))?;
-    if let Some(component) = wild_row(posterior.mean, 1) {
-        return Err(Fault::NotFinite { quantity: Quantity::Estimate, component });
-    }
     innovation.score(present, dof);
     Ok(Updated { present, exact, sick: sick | more, posterior: Some(posterior) })
 }

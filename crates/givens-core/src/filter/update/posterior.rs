@@ -1,11 +1,9 @@
 //! What is believed after a measurement, before the belief takes it over.
 
 use super::Learnt;
-use crate::filter::error::Fault;
 use crate::filter::form::Belief;
-use crate::filter::quantity::Quantity;
 use crate::kernels::copy_lower;
-use crate::scalar::{Mask, Real};
+use crate::scalar::Real;
 
 /// Rows of a matrix, each `stride` from the one before.
 #[derive(Clone, Copy)]
@@ -35,25 +33,6 @@ pub(crate) struct Posterior<'a, T> {
 }
 
 impl<T: Real> Posterior<'_, T> {
-    /// Fails at the first component whose mean, or row of the root, is finite in no lane: sums of squares may overflow where
-    /// none of the numbers does. Else the lanes where one is not.
-    #[inline(always)]
-    pub fn lost(&self) -> Result<T::Mask, Fault> {
-        let mut sick = T::Mask::splat(false);
-        for (component, mean) in self.mean.iter().enumerate() {
-            let mut size = mean.abs();
-            for x in self.factor.row(component, component + 1) {
-                size += x.abs();
-            }
-            let lost = !size.finite();
-            if lost.all() {
-                return Err(Fault::NotFinite { quantity: Quantity::Estimate, component });
-            }
-            sick = sick | lost;
-        }
-        Ok(sick)
-    }
-
     /// Makes it the belief.
     #[inline(always)]
     pub fn settle(&self, belief: &mut Belief<T>, learnt: &mut Learnt<T>) {

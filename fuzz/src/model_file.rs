@@ -103,8 +103,8 @@ fn follow(model: &Model) {
         Err(errors) => return promise::well_placed(&table, &errors),
     };
     for track in &tracks.tracks {
-        for row in &track.rows {
-            assert!(model.place(row).is_none_or(|place| place.iter().all(|x| x.is_finite())));
+        for row in track.rows.iter().map(Result::unwrap) {
+            assert!(model.place(&row).is_none_or(|place| place.iter().all(|x| x.is_finite())));
         }
         run(model, track, Goal::Interval);
     }
@@ -150,7 +150,7 @@ pub(crate) fn run(model: &Model, track: &Track, goal: Goal) -> Option<(usize, Ou
         if matches!(model.dynamics, Dynamics::Continuous(_)) { Kind::Continuous } else { Kind::Discrete };
     let choice = chosen(model, kind).and_then(|choice| method::few_steps(choice, n))?;
     let mut data = Data::with_controls(d, model.controls.len()).starting_at(begin.time);
-    for row in &track.rows[begin.row + usize::from(begin.started)..] {
+    for row in track.rows.iter().skip(begin.row + usize::from(begin.started)).map(Result::unwrap) {
         data.push_controlled(row.time, &row.z, &row.u).expect("a table's rows stand in order");
         if model.step().is_some_and(|step| (row.time - begin.time) / step > 1000.0) {
             return None;

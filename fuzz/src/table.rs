@@ -77,7 +77,7 @@ fn follow(model: &Model, tracks: &Tracks, text: &str) {
     assert!(!tracks.tracks.is_empty());
     for track in &tracks.tracks {
         assert!(!track.rows.is_empty());
-        for row in &track.rows {
+        for row in track.rows.iter().map(Result::unwrap) {
             assert!(row.z.len() == model.measures() && row.u.len() == model.controls.len());
             assert!(
                 row.time.is_finite() && row.time >= track.start && row.z.iter().all(|z| !z.is_infinite())

@@ -14,6 +14,15 @@ pub fn place(data: &str, track: &Track, row: &Row, time: f64) -> String {
     format!("{data}:{}: {name}t = {}", row.line, track.time_text(time))
 }
 
+/// The same of row `k` of track `i`; without its line, if it cannot be read any more.
+pub fn place_of(plan: &Plan, i: usize, k: usize, time: f64) -> String {
+    let track = &plan.tracks.tracks[i];
+    match track.rows.row(k) {
+        Ok(Some(row)) => place(&plan.data, track, &row, time),
+        _ => format!("{}: row {}, t = {}", plan.data, k + 1, track.time_text(time)),
+    }
+}
+
 /// Why a step failed, by the names of the model; `what` was at work at `place`, by this method if it has one.
 pub fn told(model: &Model, place: &str, what: &str, choice: Option<&Choice>, error: &StepError) -> String {
     let states: Vec<&str> = model.states.iter().map(String::as_str).collect();
@@ -48,8 +57,7 @@ impl Failed<'_> {
     /// All of it in words, of track `i`.
     pub fn told(&self, plan: &Plan, choice: &Choice, i: usize, goal: Goal) -> String {
         let (track, begin) = (&plan.tracks.tracks[i], &plan.beginnings[i]);
-        let at = &track.rows[begin.row + self.row];
-        let place = place(&plan.data, track, at, self.error.time);
+        let place = place_of(plan, i, begin.row + self.row, self.error.time);
         let what = if goal == Goal::Filter { "filter" } else { "smoother" };
         let told = told(&plan.model, &place, what, Some(choice), self.error);
         let set_out = set_out(&plan.model, self.set_out, &self.error.fault);

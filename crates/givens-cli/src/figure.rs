@@ -2,11 +2,12 @@
 
 use crate::message::Stop;
 use crate::plan::Plan;
-use crate::thin::Counts;
+use crate::thin::{ALL, Counts};
 use givens::metrics::chi_squared_band;
 use givens::{Estimates, Goal};
 use givens_io::figure::{NisSeries, PlaneTrack, StateSeries, Track, TrackFigure, png, svg};
 use std::collections::HashMap;
+use std::io;
 use std::path::Path;
 
 /// Only these endings are drawn; told before anything runs.
@@ -39,10 +40,12 @@ pub fn draw(path: &Path, plan: &Plan, shown: &[Shown]) -> Result<Vec<u8>, Stop> 
     let name = |i: usize| model.states[i].clone();
     let smoothed = shown.iter().any(|shown| shown.rows.is_smoothed());
     let what = if smoothed { "smoothed" } else { "filtered" };
+    let tracks = shown.iter().enumerate().map(|(i, shown)| track(plan, shown, i));
+    let tracks = tracks.collect::<Result<Vec<_>, Stop>>()?;
     let figure = TrackFigure {
         title: format!("{} — {what} by {}", stem(&model.file), plan.choice.title()),
         plane_labels: plane.map_or_else(Default::default, |[x, y]| [name(x), name(y)]),
-        tracks: shown.iter().enumerate().map(|(i, shown)| track(plan, shown, i)).collect(),
+        tracks,
         smoothed,
         ..TrackFigure::default()
     };
@@ -57,8 +60,7 @@ fn stem(file: &str) -> &str {
     Path::new(file).file_stem().and_then(|stem| stem.to_str()).unwrap_or(file)
 }
 
-fn track(plan: &Plan, shown: &Shown, i: usize) -> Track {
-    let rows = &plan.tracks.tracks[i].rows;
+fn track(plan: &Plan, shown: &Shown, i: usize) -> Result<Track, Stop> {
     let est = shown.rows;
     let drawn = in_order(est, shown.at);
     let n = est.states();
@@ -78,6 +80,7 @@ fn track(plan: &Plan, shown: &Shown, i: usize) -> Track {
             .filter(|x| x.iter().any(|x| !x.is_nan())),
         inside: shown.counts.map(|counts| counts.states[state]),
     });
+    let measurements = measured(plan, i)?;
     let plane = plan.model.plane.map(|[x, y]| {
         let pair = |of: &[f64]| [of[x], of[y]];
         PlaneTrack {
@@ -90,12 +93,22 @@ fn track(plan: &Plan, shown: &Shown, i: usize) -> Track {
             filtered: est
                 .is_smoothed()
                 .then(|| drawn.iter().map(|(est, row)| pair(est.filtered_mean(*row))).collect()),
-            measurements: rows.iter().filter_map(|row| plan.model.place(row)).collect(),
+            measurements,
             truth: true_way(plan, i, x, y),
         }
     });
     let name = plan.tracks.tracks[i].id.clone().unwrap_or_default();
-    Track { name, plane, states: states.collect(), nis: Some(nis(shown)) }
+    Ok(Track { name, plane, states: states.collect(), nis: Some(nis(shown)) })
+}
+
+/// Where measurements of a track lie in the plane; of a long one, those of rows at equal distances.
+fn measured(plan: &Plan, i: usize) -> io::Result<Vec<[f64; 2]>> {
+    let rows = &plan.tracks.tracks[i].rows;
+    if plan.model.plane.is_none() {
+        return Ok(Vec::new());
+    }
+    let drawn = rows.iter().step_by(rows.len().div_ceil(ALL).max(1));
+    drawn.filter_map(|row| row.map(|row| plan.model.place(&row)).transpose()).collect()
 }
 
 /// The rows, and the times of `--at` that are none of theirs, in order of time: estimates and which of them.

@@ -3,7 +3,7 @@
 use crate::message::Stop;
 use crate::plan::Plan;
 use givens::scalar::Shown;
-use givens_io::{Beginning, Row, Track, Tracks};
+use givens_io::{Beginning, Row, Rows, Track, Tracks};
 
 /// The times asked for, of each track in increasing order, with their texts.
 pub struct Instants(Vec<Vec<(f64, String)>>);
@@ -24,9 +24,9 @@ impl Instants {
             times.dedup_by(|a, b| a.0 == b.0);
             check(text, &times, plan, track, begin)?;
             for (time, text) in &mut times {
-                let first = track.rows.partition_point(|row| row.time < *time);
-                if let Some(row) = track.rows.get(first).filter(|row| row.time == *time) {
-                    text.clone_from(&row.time_text);
+                let row = track.rows.row(track.rows.before(*time)?)?;
+                if let Some(row) = row.filter(|row| row.time == *time) {
+                    *text = row.time_text;
                 }
             }
             Ok(times)
@@ -49,10 +49,18 @@ impl Instants {
                 let (z, u) = (vec![f64::NAN; d], vec![0.0; controls]);
                 Row { line: 0, index, time: *time, time_text: text.clone(), sensor: None, z, u }
             });
-            Track { rows: rows.collect(), ..track.clone() }
+            let rows = Rows::from(rows.collect::<Vec<_>>());
+            Track { id: track.id.clone(), start: track.start, rows, origin: track.origin }
         });
         let tracks = tracks.collect();
-        Tracks { tracks, has_sensor: false, ..plan.tracks.clone() }
+        Tracks {
+            tracks,
+            ignored: Vec::new(),
+            has_track_id: plan.tracks.has_track_id,
+            has_sensor: false,
+            ranges: Vec::new(),
+            fingerprint: String::new(),
+        }
     }
 }
 

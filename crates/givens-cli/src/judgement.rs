@@ -1,6 +1,7 @@
 //! `--report`: a run judged by its own innovations, in words.
 
 use crate::figure;
+use crate::gaps;
 use crate::message::{Stop, count, digits};
 use crate::plan::Plan;
 use crate::report::Summary;
@@ -8,13 +9,8 @@ use givens::metrics::{
     Consistency, InnovationSums, MeasureVerdict, Outlier, Verdict, chi_squared_cdf, chi_squared_quantile,
 };
 use givens::scalar::Shown;
-use givens_io::{Page, Row, Tone, Track};
+use givens_io::{Page, Tone, Track};
 use std::path::Path;
-
-/// The longest gaps that are named.
-const GAPS: usize = 5;
-/// A gap so many times the usual one is told.
-const LONG: f64 = 10.0;
 
 /// Fewer measured rows are too few to say that all is well.
 const FEW: usize = 20;
@@ -64,9 +60,9 @@ pub fn page(
             page.say(Tone::Look, &format!("{rows} to judge by are few: what is told as good may be chance."));
         }
         measures(&mut page, plan, innovations);
-        outliers(&mut page, plan, innovations);
+        outliers(&mut page, plan, innovations)?;
     }
-    gaps(&mut page, plan);
+    gaps::tell(&mut page, plan)?;
     if !shown.is_empty() {
         page.heading("The run");
         let svg = figure::draw(Path::new("report.svg"), plan, shown)?;
@@ -187,7 +183,7 @@ fn wrong(found: &MeasureVerdict) -> Vec<String> {
 }
 
 /// Rows that stand out.
-fn outliers(page: &mut Page, plan: &Plan, innovations: &InnovationSums) {
+fn outliers(page: &mut Page, plan: &Plan, innovations: &InnovationSums) -> Result<(), Stop> {
     page.heading("Outliers");
     let [rows, beyond, far] = innovations.rows();
     let expected = 1e-4 * rows as f64;
@@ -220,64 +216,23 @@ fn outliers(page: &mut Page, plan: &Plan, innovations: &InnovationSums) {
     );
     let row = |outlier: &Outlier| {
         let track = &plan.tracks.tracks[outlier.track];
-        let row = &track.rows[outlier.row];
+        let row = track.rows.row(outlier.row)?;
         let used = if outlier.gated { "not taken in" } else { "taken in" };
-        vec![
-            place(plan, track, row.line),
-            row.time_text.clone(),
+        Ok(vec![
+            row.as_ref().map_or(String::new(), |row| place(plan, track, row.line)),
+            row.map_or(String::new(), |row| row.time_text),
             digits(outlier.nis),
             outlier.dof.to_string(),
             used.to_owned(),
-        ]
+        ])
     };
-    let worst: Vec<_> = innovations.worst().iter().map(row).collect();
+    let worst = innovations.worst().iter().map(row).collect::<Result<Vec<_>, Stop>>()?;
     page.table(&["row", "time", "NIS", "degrees of freedom", "it was"], &worst);
+    Ok(())
 }
 
-fn place(plan: &Plan, track: &Track, line: usize) -> String {
+/// A line of the table, and its track.
+pub fn place(plan: &Plan, track: &Track, line: usize) -> String {
     let name = track.id.as_ref().map_or(String::new(), |id| format!(" (track {id})"));
     format!("{}:{line}{name}", plan.data)
-}
-
-/// Times without rows.
-fn gaps(page: &mut Page, plan: &Plan) {
-    page.heading("Gaps");
-    let mut gaps: Vec<(f64, &Track, [&Row; 2])> = Vec::new();
-    for track in &plan.tracks.tracks {
-        let measured: Vec<&Row> = track.rows.iter().filter(|row| row.measured()).collect();
-        let pairs = measured.windows(2).map(|pair| (pair[1].time - pair[0].time, track, [pair[0], pair[1]]));
-        gaps.extend(pairs.filter(|(gap, ..)| *gap > 0.0));
-    }
-    gaps.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let Some(&(usual, ..)) = gaps.get(gaps.len() / 2) else {
-        page.say(Tone::Plain, "No track has measured rows at two times.");
-        return;
-    };
-    let long: Vec<_> = gaps.iter().take_while(|(gap, ..)| *gap > LONG * usual).collect();
-    let empty = plan.tracks.tracks.iter().flat_map(|track| &track.rows).filter(|row| !row.measured()).count();
-    let (tone, words) = match long.len() {
-        0 => (
-            Tone::Good,
-            format!(
-                "The usual gap between measured rows is {}; none is {LONG} times as long.",
-                digits(usual)
-            ),
-        ),
-        n => (
-            Tone::Look,
-            format!(
-                "The usual gap between measured rows is {}; {n} of {} are more than {LONG} times as long.",
-                digits(usual),
-                gaps.len()
-            ),
-        ),
-    };
-    page.say(tone, &words);
-    if empty > 0 {
-        page.say(Tone::Plain, &format!("{} without a measure: predictions.", count(empty, "row")));
-    }
-    let row = |&&(gap, track, [from, to]): &&(f64, &Track, [&Row; 2])| {
-        vec![place(plan, track, from.line), from.time_text.clone(), to.time_text.clone(), digits(gap)]
-    };
-    page.table(&["behind row", "from", "to", "length"], &long.iter().take(GAPS).map(row).collect::<Vec<_>>());
 }

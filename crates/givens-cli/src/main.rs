@@ -8,6 +8,7 @@ mod commands;
 mod failure;
 mod figure;
 mod files;
+mod gaps;
 mod instants;
 mod judgement;
 mod message;
@@ -23,6 +24,7 @@ mod stdout;
 mod streaming;
 mod thin;
 mod timetable;
+mod trajectory;
 mod truth;
 
 use clap::Parser;

@@ -1,7 +1,7 @@
 //! Words on stderr, and the reasons to stop.
 
 use givens_io::InputErrors;
-use std::io::Write;
+use std::io::{self, Write};
 
 /// Why the command stops, and its exit code.
 #[derive(Debug)]
@@ -34,6 +34,12 @@ impl Stop {
     }
 }
 
+impl From<io::Error> for Stop {
+    fn from(error: io::Error) -> Self {
+        Self::failed(error.to_string())
+    }
+}
+
 impl From<InputErrors> for Stop {
     fn from(errors: InputErrors) -> Self {
         let mut text: Vec<String> = errors.errors.iter().map(|error| format!("error: {error}")).collect();
@@ -46,7 +52,7 @@ impl From<InputErrors> for Stop {
 
 /// A line on stderr. If nobody reads it, the work goes on.
 pub fn say(text: &str) {
-    let _ = writeln!(std::io::stderr().lock(), "{text}");
+    let _ = writeln!(io::stderr().lock(), "{text}");
 }
 
 /// `1 row`, `2 rows`.

@@ -65,11 +65,12 @@ impl Plan {
     pub fn points(&self, text: &str) -> Result<Vec<Goal>, Stop> {
         let point = |(track, begin): (&Track, &Beginning)| {
             let t = track.parse_time(text).map_err(|error| Stop::input(format!("--point: {error}")))?;
-            let rows = &track.rows[begin.row..];
-            if t == begin.time || rows.iter().any(|row| row.time == t) {
+            let at = track.rows.before(t)?.max(begin.row);
+            let beside = track.rows.read(at.saturating_sub(1).max(begin.row)..at + 1)?;
+            if t == begin.time || beside.iter().any(|row| row.time == t) {
                 return Ok(Goal::Point(t));
             }
-            let near = rows.iter().min_by(|a, b| (a.time - t).abs().total_cmp(&(b.time - t).abs()));
+            let near = beside.iter().min_by(|a, b| (a.time - t).abs().total_cmp(&(b.time - t).abs()));
             let name = track.id.as_ref().map_or(String::new(), |id| format!(" of track {id}"));
             let stop = Stop::input(format!(
                 "--point {text}: neither a row{name} nor the initial belief stands at this time"
@@ -98,8 +99,7 @@ impl Plan {
 
 /// Columns that a table could have and has not.
 pub fn absent<'m>(model: &'m Model, tracks: &Tracks) -> Vec<&'m str> {
-    let rows = || tracks.tracks.iter().flat_map(|track| &track.rows);
-    let empty = |i: usize| rows().all(|row| row.z.get(i).is_none_or(|z| z.is_nan()));
+    let empty = |i: usize| tracks.ranges.get(i).is_none_or(Option::is_none);
     let measures = model.sensors.iter().flat_map(|sensor| &sensor.columns).enumerate();
     let mut names: Vec<&str> = measures.filter(|(i, _)| empty(*i)).map(|(_, name)| name.as_str()).collect();
     names.extend((!tracks.has_sensor).then_some("sensor"));
@@ -111,8 +111,8 @@ pub fn absent<'m>(model: &'m Model, tracks: &Tracks) -> Vec<&'m str> {
 fn degrees(file: &str, model: &Model, tracks: &Tracks) {
     for sensor in &model.sensors {
         for ((name, period), i) in sensor.columns.iter().zip(&sensor.angles).zip(sensor.measures.clone()) {
-            let rows = tracks.tracks.iter().flat_map(|track| &track.rows);
-            let beyond = rows.map(|row| row.z[i]).find(|z| z.abs() > TAU + 0.1);
+            let range = tracks.ranges.get(i).copied().flatten().unwrap_or([0.0; 2]);
+            let beyond = range.into_iter().find(|z| z.abs() > TAU + 0.1);
             if let (Some(z), true) = (beyond, *period == Some(TAU)) {
                 say(&format!(
                     "{file}: `{name}` has values such as {}, beyond 2π\n  help: if it is in degrees, write angles = {{ {name} = \

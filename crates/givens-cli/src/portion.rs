@@ -79,12 +79,18 @@ fn tracks<'a, M, H>(
 }
 
 /// The rows of track `i` from its beginning on.
-pub fn data(plan: &Plan, i: usize) -> Result<Data, Stop> {
+fn data(plan: &Plan, i: usize) -> Result<Data, Stop> {
+    stretch(plan, i, 0..plan.tracks.tracks[i].rows.len())
+}
+
+/// These rows of track `i`, counted from its beginning.
+pub fn stretch(plan: &Plan, i: usize, rows: Range<usize>) -> Result<Data, Stop> {
     let (track, begin) = (&plan.tracks.tracks[i], &plan.beginnings[i]);
     let (d, controls) = (plan.model.measures(), plan.model.controls.len());
     let mut data = Data::with_controls(d, controls).starting_at(begin.time);
     let empty = vec![f64::NAN; d];
-    for (k, row) in track.rows[begin.row..].iter().enumerate() {
+    let of_track = rows.start + begin.row..rows.end.saturating_add(begin.row);
+    for (k, row) in rows.zip(track.rows.read(of_track)?.iter()) {
         // what `start` has read is not used again
         let z = if begin.started && k == 0 { &empty } else { &row.z };
         data.push_controlled(row.time, z, &row.u).map_err(|error: DataError| {

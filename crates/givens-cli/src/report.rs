@@ -50,9 +50,13 @@ impl Gated {
         let gate = plan.choice.gate?;
         let places = self.first.iter().map(|&(i, k)| {
             let track = &plan.tracks.tracks[i];
-            let row = &track.rows[k];
             let name = track.id.as_ref().map_or(String::new(), |id| format!("track {id}, "));
-            format!("{}:{} ({name}t = {})", plan.data, row.line, track.time_text(row.time))
+            match track.rows.row(k) {
+                Ok(Some(row)) => {
+                    format!("{}:{} ({name}t = {})", plan.data, row.line, track.time_text(row.time))
+                }
+                _ => format!("{} ({name}row {})", plan.data, k + 1),
+            }
         });
         let named = match places.collect::<Vec<_>>() {
             none if none.is_empty() => String::new(),

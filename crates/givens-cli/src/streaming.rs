@@ -7,16 +7,16 @@ use crate::files::Output;
 use crate::instants::Instants;
 use crate::message::{Stop, say};
 use crate::plan::Plan;
-use crate::portion;
 use crate::progress::Progress;
 use crate::report::{Gated, Summary};
 use crate::session::Manner;
 use crate::thin::Thinned;
+use crate::trajectory::Trajectory;
 use core::num::NonZeroUsize;
 use core::ops::ControlFlow;
 use givens::batch::Track;
 use givens::metrics::{AccuracySums, ConsistencySums, InnovationSums};
-use givens::{Data, Estimates, Finished, Goal, Mark, Sink, Stream};
+use givens::{Estimates, Finished, Goal, Mark, Sink, Source, Stream};
 use givens_io::{AnswerWriter, Dynamics, Format, Part, Tracks, Written};
 use serde::{Deserialize, Serialize};
 use std::io::{self, ErrorKind, Write};
@@ -31,10 +31,10 @@ pub struct Streaming<'p> {
     plan: &'p Plan,
     goal: Goal,
     at: Option<&'p Instants>,
-    data: Data,
     writer: AnswerWriter<'p>,
     sums: Sums,
     failure: Option<String>,
+    stop: Option<Stop>,
 }
 
 /// Of all rows so far.
@@ -70,16 +70,23 @@ impl<'p> Streaming<'p> {
         format: Format,
         drawn: bool,
     ) -> Result<Self, Stop> {
-        let data = portion::data(plan, 0)?;
-        let measured = data.rows().filter(|row| row.z.iter().any(|z| !z.is_nan())).count();
-        let thinned = drawn.then(|| (Thinned::new(data.len(), measured), Estimates::default()));
+        let (rows, begin) = (&plan.tracks.tracks[0].rows, &plan.beginnings[0]);
+        let mut thinned = None;
+        if drawn {
+            let mut measured = 0;
+            // what `start` has read is not used again
+            for row in rows.iter().skip(begin.row + usize::from(begin.started)) {
+                measured += usize::from(row?.measured());
+            }
+            thinned = Some((Thinned::new(rows.len() - begin.row, measured), Estimates::default()));
+        }
         let accuracy = plan.truth.as_ref().map(|_| AccuracySums::new(plan.model.states.len()));
         let (smoothed, threads) = (goal != Goal::Filter, manner.threads);
         let (model, tracks, gated) = (&plan.model, &plan.tracks, plan.choice.gate.is_some());
         let writer = AnswerWriter { format, model, tracks, smoothed, gated, threads };
         let innovations = manner.judged.then(|| InnovationSums::new(plan.model.measures()));
         let sums = Sums { thinned, accuracy, innovations, ..Sums::default() };
-        Ok(Self { plan, goal, at: manner.at, data, writer, sums, failure: None })
+        Ok(Self { plan, goal, at: manner.at, writer, sums, failure: None, stop: None })
     }
 
     /// Runs, from where another run stands if one does, and writes the answers; what is `kept` is brought up to date on the way.
@@ -94,7 +101,7 @@ impl<'p> Streaming<'p> {
     ) -> io::Result<()> {
         let plan = self.plan;
         let (n, d) = (plan.model.states.len(), plan.model.measures());
-        let data = core::mem::replace(&mut self.data, Data::new(0));
+        let data = Trajectory::new(plan);
         let hold = self.hold(n, d, data.len(), kept.is_some());
         let at = self.at.map_or(Vec::new(), |at| at.of(0));
         let tracks = self.at.map(|at| at.tracks(plan));
@@ -124,6 +131,7 @@ impl<'p> Streaming<'p> {
             }
         });
         let mut done = desk.done;
+        self.stop = data.stop();
         if let Some((row, error)) = &ended.failure {
             let failed = Failed { row: *row, error, set_out: &ended.failed_at, finished: self.sums.rows };
             self.failure = Some(failed.told(plan, &plan.choice, 0, self.goal));
@@ -219,6 +227,11 @@ impl<'p> Streaming<'p> {
         let (rows, at) = self.sums.thinned.as_ref()?;
         let (goal, at) = (self.goal, self.at.map(|_| at));
         Some(Shown { goal, rows: &rows.kept, at, counts: rows.counts() })
+    }
+
+    /// Why it ended before its rows did, if they could not be read.
+    pub fn stop(&mut self) -> Option<Stop> {
+        self.stop.take()
     }
 
     /// The failure that ended it, in words.

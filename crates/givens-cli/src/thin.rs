@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
 
 /// Of a run of up to so many rows, all are drawn.
-const ALL: usize = 1 << 16;
+pub const ALL: usize = 1 << 16;
 /// In so many stretches of a longer one the rows are kept at which a curve is lowest or highest.
 const STRETCHES: usize = 1024;
 /// Points of the line through the means of NIS.

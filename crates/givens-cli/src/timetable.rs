@@ -3,7 +3,7 @@
 use crate::args::SimulateArgs;
 use crate::message::Stop;
 use givens::scalar::Shown;
-use givens_io::{Model, Row, Track, Tracks};
+use givens_io::{Model, Row, Rows, Track, Tracks};
 
 /// Rows, of all runs together, that fit into memory.
 const MOST_ROWS: f64 = 1e7;
@@ -17,7 +17,7 @@ pub fn regular(model: &Model, args: &SimulateArgs) -> Result<Tracks, Stop> {
     }
     let every = distance(model, args)?;
     let mut track =
-        Track { id: None, start: model.time.unwrap_or(0.0), rows: Vec::new(), origin: model.epoch };
+        Track { id: None, start: model.time.unwrap_or(0.0), rows: Rows::default(), origin: model.epoch };
     // without a time of its own the belief holds at the first row
     let first = usize::from(model.time.is_some());
     let last = last(&track, args, every, first)?;
@@ -41,6 +41,7 @@ pub fn regular(model: &Model, args: &SimulateArgs) -> Result<Tracks, Stop> {
         ignored: vec![],
         has_track_id: false,
         has_sensor: apart,
+        ranges: vec![],
         fingerprint: String::new(),
     })
 }

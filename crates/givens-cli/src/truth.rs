@@ -2,7 +2,8 @@
 
 use crate::columns::{ignored, source_name};
 use crate::message::Stop;
-use givens_io::{Model, Track, Tracks, read_truth};
+use givens_io::{Model, Tracks, read_truth};
+use std::io;
 
 /// A truth that knows at least one row of the data.
 pub struct Truth {
@@ -27,11 +28,14 @@ impl Truth {
             rows[track].push(row);
         }
         let truth = Self { states: found.states, times: found.times, rows, fingerprint: found.fingerprint };
-        let meets = |(i, track): (usize, &Track)| {
-            let mut times = track.rows.iter().map(|row| row.time).chain([track.start]);
-            times.any(|t| truth.row(i, t).is_some())
-        };
-        if tracks.tracks.iter().enumerate().any(meets) { Ok(truth) } else { Err(truth.apart(path, tracks)) }
+        for (i, track) in tracks.tracks.iter().enumerate() {
+            for t in track.rows.iter().map(|row| Ok(row?.time)).chain([Ok(track.start)]) {
+                if truth.row(i, t.map_err(|error: io::Error| Stop::from(error))?).is_some() {
+                    return Ok(truth);
+                }
+            }
+        }
+        Err(truth.apart(path, tracks))
     }
 
     /// The row of the truth at time `t` of track `i`.

@@ -4,7 +4,7 @@ use core::cell::{Cell, RefCell};
 use core::ops::Range;
 
 use crate::error::{InputError, InputErrors};
-use crate::source::Source;
+use crate::source::{Source, whole};
 
 /// The errors found so far in one source.
 pub(crate) struct Findings<'a> {
@@ -15,6 +15,25 @@ pub(crate) struct Findings<'a> {
     more: Cell<usize>,
 }
 
+/// What was found in the stretches of a text before.
+#[derive(Default)]
+pub(crate) struct Found {
+    errors: Vec<InputError>,
+    shown: usize,
+    more: usize,
+}
+
+impl Found {
+    /// `value`, if nothing was wrong; a value of the file `name` that could not be made has left a finding.
+    pub fn finish<T>(self, name: &str, value: Option<T>) -> Result<T, InputErrors> {
+        match value {
+            Some(value) if self.errors.is_empty() => Ok(value),
+            _ if self.errors.is_empty() => Err(whole(name, "could not be understood").into()),
+            _ => Err(InputErrors::sorted(self.errors, self.more)),
+        }
+    }
+}
+
 /// Errors that are kept; of those beyond only the number is told.
 const KEPT: usize = 100;
 
@@ -23,7 +42,18 @@ const SHOWN: usize = 1 << 20;
 
 impl<'a> Findings<'a> {
     pub fn new(source: &'a Source) -> Self {
-        Self { source, errors: RefCell::default(), shown: Cell::new(0), more: Cell::new(0) }
+        Self::after(Found::default(), source)
+    }
+
+    /// Goes on with the next stretch of a text.
+    pub fn after(found: Found, source: &'a Source) -> Self {
+        let Found { errors, shown, more } = found;
+        Self { source, errors: RefCell::new(errors), shown: Cell::new(shown), more: Cell::new(more) }
+    }
+
+    /// What was found so far.
+    pub fn found(self) -> Found {
+        Found { errors: self.errors.into_inner(), shown: self.shown.get(), more: self.more.get() }
     }
 
     pub fn push(&self, error: InputError) {
@@ -72,12 +102,8 @@ impl<'a> Findings<'a> {
 
     /// `value`, if nothing was wrong; a value that could not be made has left a finding.
     pub fn finish<T>(self, value: Option<T>) -> Result<T, InputErrors> {
-        let errors = self.errors.into_inner();
-        match value {
-            Some(value) if errors.is_empty() => Ok(value),
-            _ if errors.is_empty() => Err(self.source.whole("could not be understood").into()),
-            _ => Err(InputErrors::sorted(errors, self.more.get())),
-        }
+        let name = &self.source.name;
+        self.found().finish(name, value)
     }
 }
 

@@ -23,4 +23,6 @@ pub use output::{
     read_back, write_answers, write_measurements, write_states,
 };
 pub use page::{Page, Tone};
-pub use table::{Calendar, Row, Track, Tracks, Truth, parse_tracks, read_times, read_tracks, read_truth};
+pub use table::{
+    Calendar, Row, Rows, Track, Tracks, Truth, parse_tracks, read_times, read_tracks, read_truth,
+};

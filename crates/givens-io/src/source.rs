@@ -12,16 +12,25 @@ pub(crate) struct Source {
     pub text: String,
     /// Where each line begins.
     lines: Vec<usize>,
+    /// Lines before the text, which is a stretch of a longer one.
+    before: usize,
 }
+
+/// A byte order mark, which is no part of a text.
+pub(crate) const MARK: &[u8] = "\u{feff}".as_bytes();
 
 impl Source {
     pub fn new(name: &str, mut text: String) -> Self {
-        // A byte order mark is no part of the text.
-        if text.starts_with('\u{feff}') {
-            text.drain(..'\u{feff}'.len_utf8());
+        if text.as_bytes().starts_with(MARK) {
+            text.drain(..MARK.len());
         }
+        Self::stretch(name, text, 0)
+    }
+
+    /// A stretch of a text, behind so many lines of it.
+    pub fn stretch(name: &str, text: String, before: usize) -> Self {
         let lines = core::iter::once(0).chain(text.match_indices('\n').map(|(i, _)| i + 1)).collect();
-        Self { name: name.to_string(), text, lines }
+        Self { name: name.to_string(), text, lines, before }
     }
 
     /// Reads a file, or standard input for `-`.
@@ -31,8 +40,7 @@ impl Source {
 
     /// The same, of at most so many bytes: what is behind them is not looked at.
     pub fn read_up_to(path: &str, most: u64) -> Result<Self, InputError> {
-        let name = if path == "-" { "standard input" } else { path };
-        let whole = Location { file: name.to_string(), place: None };
+        let name = called(path);
         let mut bytes = Vec::new();
         let done = if path == "-" {
             std::io::stdin().lock().take(most).read_to_end(&mut bytes)
@@ -44,34 +52,31 @@ impl Source {
                 file.take(most).read_to_end(&mut bytes)
             })
         };
-        done.map_err(|error| whole.error(unreadable(&error)))?;
+        done.map_err(|error| whole(name, unreadable(&error)))?;
         match String::from_utf8(bytes) {
             Ok(text) => Ok(Self::new(name, text)),
-            Err(error) => {
-                let valid = error.utf8_error().valid_up_to();
-                let text = String::from_utf8_lossy(error.as_bytes()).into_owned();
-                let mut wrong = Self::new(name, text).error(valid..valid + 1, "this is not UTF-8 text");
-                if error.as_bytes().starts_with(b"PAR1") {
-                    wrong.place = None;
-                    wrong.message = "this is a Parquet file, which this version does not read yet".into();
-                    return Err(wrong.with_help("write it as CSV"));
-                }
-                Err(wrong.with_help("save the file in the encoding UTF-8"))
-            }
+            Err(error) => Err(not_text(name, error.as_bytes(), error.utf8_error().valid_up_to(), 0)),
         }
     }
 
     /// Tells it from other texts: its length and its sum.
     pub fn fingerprint(&self) -> String {
-        format!("{} bytes, sum {:08x}", self.text.len(), crc32fast::hash(self.text.as_bytes()))
+        let mut sum = crc32fast::Hasher::new();
+        sum.update(self.text.as_bytes());
+        fingerprint(self.text.len() as u64, &sum)
     }
 
-    /// The line, from zero, in which a byte stands.
+    /// The line of the text, from zero, in which a byte stands.
     pub fn line_of(&self, byte: usize) -> usize {
         self.lines.partition_point(|&start| start <= byte).saturating_sub(1)
     }
 
-    /// Line `line`, from zero, without its end.
+    /// The number of that line in the whole text, from one.
+    pub fn number(&self, byte: usize) -> usize {
+        self.before + self.line_of(byte) + 1
+    }
+
+    /// Line `line` of the text, from zero, without its end.
     pub fn line(&self, line: usize) -> &str {
         let start = self.lines.get(line).copied().unwrap_or(self.text.len());
         let end = self.lines.get(line + 1).copied().unwrap_or(self.text.len());
@@ -89,7 +94,12 @@ impl Source {
             before += usize::from(at < start);
             width += usize::from(at >= start && at < end);
         }
-        Place { line: line + 1, column: before + 1, width: width.max(1), source: source.to_string() }
+        Place {
+            line: self.before + line + 1,
+            column: before + 1,
+            width: width.max(1),
+            source: source.to_string(),
+        }
     }
 
     pub fn location(&self, span: Range<usize>) -> Location {
@@ -102,11 +112,38 @@ impl Source {
 
     /// An error about the file as a whole.
     pub fn whole(&self, message: impl Into<String>) -> InputError {
-        Location { file: self.name.clone(), place: None }.error(message)
+        whole(&self.name, message)
     }
 }
 
-fn unreadable(error: &std::io::Error) -> String {
+/// The name of what a path stands for.
+pub(crate) fn called(path: &str) -> &str {
+    if path == "-" { "standard input" } else { path }
+}
+
+/// An error about a file as a whole.
+pub(crate) fn whole(name: &str, message: impl Into<String>) -> InputError {
+    Location { file: name.to_owned(), place: None }.error(message)
+}
+
+/// Tells a text from others: its length and its sum.
+pub(crate) fn fingerprint(length: u64, sum: &crc32fast::Hasher) -> String {
+    format!("{length} bytes, sum {:08x}", sum.clone().finalize())
+}
+
+/// The error of bytes that are no text but for the first `valid`, behind so many lines.
+pub(crate) fn not_text(name: &str, bytes: &[u8], valid: usize, lines: usize) -> InputError {
+    if bytes.starts_with(b"PAR1") {
+        let error = whole(name, "this is a Parquet file, which this version does not read yet");
+        return error.with_help("write it as CSV");
+    }
+    let text = String::from_utf8_lossy(bytes).into_owned();
+    let wrong = Source::stretch(name, text, lines).error(valid..valid + 1, "this is not UTF-8 text");
+    wrong.with_help("save the file in the encoding UTF-8")
+}
+
+/// What is told of a file that cannot be read.
+pub(crate) fn unreadable(error: &std::io::Error) -> String {
     match error.kind() {
         std::io::ErrorKind::NotFound => "there is no such file".to_string(),
         std::io::ErrorKind::PermissionDenied => "this file may not be read".to_string(),

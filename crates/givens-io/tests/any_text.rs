@@ -96,9 +96,10 @@ fn table_survives(text: &str) {
     match parse_tracks(text, "d.csv", &model) {
         Err(errors) => well_placed(text, &errors),
         Ok(tracks) => {
-            for row in tracks.tracks.iter().flat_map(|track| &track.rows) {
+            for row in tracks.tracks.iter().flat_map(|track| track.rows.iter()) {
+                let row = row.unwrap();
                 assert!(row.z.len() == model.measures() && row.u.len() == 1 && row.time.is_finite());
-                let _ = model.place(row);
+                let _ = model.place(&row);
             }
         }
     }

@@ -169,7 +169,7 @@ fn a_measurement_is_placed_in_the_plane_where_start_can() {
     let model = Model::parse(&text, "m.toml").unwrap();
     let table = "time,range,bearing\n0,2,0\n1,2,\n";
     let tracks = givens_io::parse_tracks(table, "d.csv", &model).unwrap();
-    let rows = &tracks.tracks[0].rows;
+    let rows = tracks.tracks[0].rows.read(0..usize::MAX).unwrap();
     assert_eq!(model.place(&rows[0]), Some([0.0, 2.0]));
     assert_eq!(model.place(&rows[1]), None);
 }

@@ -35,16 +35,16 @@ fn cells_become_measures_and_empty_ones_are_missing() {
     assert!(!tracks.has_track_id && !tracks.has_sensor);
     let track = &tracks.tracks[0];
     assert_eq!((track.id.as_deref(), track.start, track.rows.len()), (None, 0.5, 2));
-    let row = &track.rows[0];
+    let row = track.rows.first().unwrap();
     assert_eq!((row.line, row.index, row.time, row.time_text.as_str()), (2, 0, 0.5, "0.5"));
     assert_eq!((row.z[0], row.z[2]), (1.0, 7.0));
-    assert!(row.z[1].is_nan() && row.measured() && !track.rows[1].measured());
+    assert!(row.z[1].is_nan() && row.measured() && !track.rows.last().unwrap().measured());
 }
 
 #[test]
 fn a_sensor_may_be_absent_as_a_whole() {
     let tracks = read("time,px\n1,7\n", &model(""));
-    let z = &tracks.tracks[0].rows[0].z;
+    let z = &tracks.tracks[0].rows.first().unwrap().z;
     assert!(z[0].is_nan() && z[1].is_nan());
     assert_eq!(z[2], 7.0);
 }
@@ -55,7 +55,7 @@ fn tracks_may_interleave_and_keep_their_order_and_names() {
     let ids: Vec<_> = tracks.tracks.iter().map(|track| track.id.as_deref().unwrap()).collect();
     assert_eq!(ids, ["b", "007"]);
     let indices: Vec<Vec<usize>> =
-        tracks.tracks.iter().map(|track| track.rows.iter().map(|row| row.index).collect()).collect();
+        tracks.tracks.iter().map(|track| track.rows.iter().map(|row| row.unwrap().index).collect()).collect();
     assert_eq!(indices, [vec![0, 2], vec![1, 3]]);
     assert_eq!((tracks.tracks[0].start, tracks.tracks[1].start), (5.0, 1.0));
 }
@@ -70,9 +70,9 @@ fn the_belief_holds_at_the_time_of_the_model_or_at_the_first_row() {
 fn times_of_the_calendar_count_from_the_first_row_of_each_track() {
     let table = "time,track_id,px\n2026-03-01T12:00:00Z,a,1\n2026-03-01T14:00:00+01:00,b,1\n2026-03-01T12:00:02.25Z,a,1\n";
     let tracks = read(table, &model(""));
-    let times = |k: usize| tracks.tracks[k].rows.iter().map(|row| row.time).collect::<Vec<_>>();
+    let times = |k: usize| tracks.tracks[k].rows.iter().map(|row| row.unwrap().time).collect::<Vec<_>>();
     assert_eq!((times(0), times(1)), (vec![0.0, 2.25], vec![0.0]));
-    assert_eq!(tracks.tracks[0].rows[1].time_text, "2026-03-01T12:00:02.25Z");
+    assert_eq!(tracks.tracks[0].rows.row(1).unwrap().unwrap().time_text, "2026-03-01T12:00:02.25Z");
     assert_eq!(tracks.tracks[0].time_text(1.5), "2026-03-01T12:00:01.5Z");
     assert_eq!(tracks.tracks[0].parse_time("2026-03-01T12:00:10Z"), Ok(10.0));
     assert_eq!(tracks.tracks[0].start, 0.0);
@@ -84,14 +84,14 @@ fn times_of_the_calendar_count_from_the_first_row_of_each_track() {
 fn times_of_the_calendar_count_from_a_calendar_time_of_the_model() {
     let model = model("time = 2026-03-01T11:59:50Z");
     let tracks = read("time,px\n2026-03-01T12:00:00Z,1\n", &model);
-    assert_eq!((tracks.tracks[0].start, tracks.tracks[0].rows[0].time), (0.0, 10.0));
+    assert_eq!((tracks.tracks[0].start, tracks.tracks[0].rows.first().unwrap().time), (0.0, 10.0));
 }
 
 #[test]
 fn rows_at_one_time_differ_in_their_sensor() {
     let tracks =
         read("time,sensor,px,range,bearing\n1,gps,5,,\n1,radar,,2,3\n2,,5,2,3\n3,gps,,,\n", &model(""));
-    let rows = &tracks.tracks[0].rows;
+    let rows = tracks.tracks[0].rows.read(0..usize::MAX).unwrap();
     assert_eq!(rows.iter().map(|row| row.sensor).collect::<Vec<_>>(), [Some(1), Some(0), None, Some(1)]);
     assert!(rows[0].z[0].is_nan() && rows[1].z[2].is_nan() && !rows[3].measured());
     assert_eq!(rows[2].z, [2.0, 3.0, 5.0]);
@@ -104,7 +104,7 @@ fn controls_stand_in_the_order_of_the_model() {
     let model = Model::parse(&text, "m.toml").unwrap();
     assert_eq!(model.controls, ["u_b", "u_a"]);
     let tracks = read("time,u_a,u_b,px,u_c\n1,2,3,4,5\n", &model);
-    assert_eq!(tracks.tracks[0].rows[0].u, [3.0, 2.0]);
+    assert_eq!(tracks.tracks[0].rows.first().unwrap().u, [3.0, 2.0]);
     assert_eq!(tracks.ignored, ["u_c"]);
 }
 
@@ -120,7 +120,7 @@ fn a_table_of_times_needs_no_measures_and_truth_stands_beside_tracks() {
     let model = model("");
     let times = givens_io::read_times(&write("times.csv", "time\n1\n2\n"), &model).unwrap();
     let asked = |tracks: &Tracks, row: usize| -> Vec<bool> {
-        tracks.tracks[0].rows[row].z.iter().map(|value| !value.is_nan()).collect()
+        tracks.tracks[0].rows.row(row).unwrap().unwrap().z.iter().map(|value| !value.is_nan()).collect()
     };
     assert_eq!((asked(&times, 0), asked(&times, 1)), (vec![true; 3], vec![true; 3]));
     let times = givens_io::read_times(&write("times.csv", "time,sensor\n1,gps\n2,\n"), &model).unwrap();

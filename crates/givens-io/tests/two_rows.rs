@@ -107,9 +107,9 @@ fn position_and_velocity_have_the_covariance_of_two_point_differencing() {
 fn a_measurement_is_still_placed_from_one_row() {
     let model = model(RADAR);
     let tracks = parse_tracks("time,r,az,el\n0,2,0,0\n", "d.csv", &model).unwrap();
-    assert_eq!(model.place(&tracks.tracks[0].rows[0]), Some([2.0, 0.0]));
+    assert_eq!(model.place(tracks.tracks[0].rows.first().unwrap()), Some([2.0, 0.0]));
     let rates = crate::model(&RADAR.replace("[\"x\", \"y\"]\n", "[\"x\", \"vx\"]\n"));
-    assert_eq!(rates.place(&tracks.tracks[0].rows[0]), None);
+    assert_eq!(rates.place(tracks.tracks[0].rows.first().unwrap()), None);
 }
 
 /// A discrete model on a line whose tail the tests vary.

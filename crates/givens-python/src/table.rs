@@ -36,16 +36,17 @@ fn arrays<'py>(py: Python<'py>, model: &Model, track: &Track) -> Result<Bound<'p
     })?;
     let n = model.states();
     let all = PyDict::new(py);
-    let gather = |of: fn(&givens_io::Row) -> &[f64]| track.rows.iter().flat_map(of).copied().collect();
+    let rows = track.rows.read(0..k).map_err(|error| Input::new("data", error.to_string()))?;
+    let gather = |of: fn(&givens_io::Row) -> &[f64]| rows.iter().flat_map(of).copied().collect();
     all.set_item("id", &track.id)?;
     all.set_item("origin", track.origin.map(|_| track.time_text(0.0)))?;
-    all.set_item("time", frozen(py, track.rows.iter().map(|row| row.time).collect(), &[k])?)?;
+    all.set_item("time", frozen(py, rows.iter().map(|row| row.time).collect(), &[k])?)?;
     all.set_item("z", frozen(py, gather(|row| &row.z), &[k, d])?)?;
     all.set_item("u", frozen(py, gather(|row| &row.u), &[k, c])?)?;
     // one beyond the last sensor: a row that names none
     let of = |row: &givens_io::Row| row.sensor.unwrap_or(file.sensors.len());
-    all.set_item("sensor", counts(py, track.rows.iter().map(of)))?;
-    all.set_item("line", counts(py, track.rows.iter().map(|row| row.line)))?;
+    all.set_item("sensor", counts(py, rows.iter().map(of)))?;
+    all.set_item("line", counts(py, rows.iter().map(|row| row.line)))?;
     all.set_item("t0", begun.time)?;
     all.set_item("mean", frozen(py, begun.prior.mean().to_vec(), &[n])?)?;
     all.set_item("cov", frozen(py, begun.prior.cov().to_vec(), &[n, n])?)?;

@@ -40,4 +40,4 @@ pub use estimates::Estimates;
 pub use gate::Gated;
 pub use precision::{Computes, Single};
 pub use run::{Draws, Failure, Goal, Outcome, Samples, filter, run, run_at, sample, smooth};
-pub use stream::{Ended, Finished, Mark, Sink, Stream};
+pub use stream::{Ended, Finished, Mark, Sink, Source, Stream, Stretch};

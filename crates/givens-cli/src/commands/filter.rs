@@ -90,6 +90,7 @@ fn alone(plan: &Plan, goal: Goal, manner: Manner, target: Target, pages: Pages) 
         say(GOES_ON);
     }
     sink.fill(|out| run.run(out, left, kept.as_mut()))?;
+    run.stop().map_or(Ok(()), Err)?;
     // what may be gone on with has its name last
     let sink = if kept.is_some() { Some(sink) } else { sink.finish().map(|()| None)? };
     let (summary, failures) = (run.summary(), run.failure().map_or(&[][..], core::slice::from_ref));

@@ -11,7 +11,9 @@ use crate::timetable::{bounded, regular};
 use givens::Row;
 use givens::filter::{Gaussian, StepError};
 use givens::simulate::{Paths, Stream, simulate as draw, simulate_continuous};
-use givens_io::{Drawn, Dynamics, Model, Track, Tracks, read_times, write_measurements, write_states};
+use givens_io::{
+    Drawn, Dynamics, Model, Row as Told, Track, Tracks, read_times, write_measurements, write_states,
+};
 
 /// Draws the runs and writes their measurements, and their states if asked for. A run that fails does not stop the
 /// others.
@@ -29,10 +31,11 @@ pub fn simulate(args: &SimulateArgs) -> Result<(), Stop> {
     let states = states.map(|path| Sink::open(Some(path))).transpose()?;
     let (mut runs, mut failures) = (Vec::new(), Vec::new());
     for (at, track) in tracks.tracks.iter().enumerate() {
+        let rows = &*track.rows.read(0..track.rows.len())?;
         for run in 0..args.runs {
-            match one(&model, &paths, &prior, track, args, at, run) {
+            match one(&model, &paths, &prior, (track, rows), args, at, run) {
                 Ok(drawn) => runs.push(drawn),
-                Err(error) => failures.push(words(&model, args, track, run, &error)),
+                Err(error) => failures.push(words(&model, args, (track, rows), run, &error)),
             }
         }
     }
@@ -73,13 +76,13 @@ fn one(
     model: &Model,
     paths: &Paths,
     prior: &Gaussian,
-    track: &Track,
+    (track, told): (&Track, &[Told]),
     args: &SimulateArgs,
     at: usize,
     run: u32,
 ) -> Result<Drawn, StepError> {
     let mut stream = Stream::new(args.seed, u32::try_from(at).unwrap_or(u32::MAX), run);
-    let rows = track.rows.iter().map(|row| Row { time: row.time, z: &row.z, u: &row.u });
+    let rows = told.iter().map(|row| Row { time: row.time, z: &row.z, u: &row.u });
     let (sensors, t0, stream) = (&model.observation, track.start, &mut stream);
     let simulation = match &model.dynamics {
         Dynamics::Discrete(model) => draw(model, sensors, rows, t0, prior, stream)?,
@@ -88,18 +91,24 @@ fn one(
     Ok(Drawn {
         run,
         track: track.id.clone().or_else(|| (args.runs > 1).then(|| run.to_string())),
-        index: track.rows.iter().map(|row| row.index).collect(),
-        time_text: track.rows.iter().map(|row| row.time_text.clone()).collect(),
-        sensor: track.rows.iter().map(|row| row.sensor).collect(),
-        controls: track.rows.iter().map(|row| row.u.clone()).collect(),
+        index: told.iter().map(|row| row.index).collect(),
+        time_text: told.iter().map(|row| row.time_text.clone()).collect(),
+        sensor: told.iter().map(|row| row.sensor).collect(),
+        controls: told.iter().map(|row| row.u.clone()).collect(),
         simulation,
     })
 }
 
 /// Which run failed, where and why. A step of a simulation is a row.
-fn words(model: &Model, args: &SimulateArgs, track: &Track, run: u32, error: &StepError) -> String {
+fn words(
+    model: &Model,
+    args: &SimulateArgs,
+    (track, told): (&Track, &[Told]),
+    run: u32,
+    error: &StepError,
+) -> String {
     let which = if args.runs > 1 { format!("run {run}, ") } else { String::new() };
-    let row = track.rows.get(error.step).or(track.rows.last());
+    let row = told.get(error.step).or(told.last());
     let place = match (&args.times, row) {
         (Some(path), Some(row)) => failure::place(source_name(path), track, row, error.time),
         _ => format!("{}: t = {}", model.file, track.time_text(error.time)),

@@ -7,6 +7,7 @@ use givens::scalar::Real;
 use super::Model;
 use super::start::Start;
 use crate::table::{Row, Track};
+use std::borrow::Cow;
 
 /// The initial belief of one track.
 #[derive(Clone, Debug, PartialEq)]
@@ -63,7 +64,7 @@ impl Model {
         let (time, line) = (read.present.time, read.present.line);
         let [u, z] = read.inputs(self);
         let (mut values, mut slopes) = (vec![0.0; k], vec![0.0; k * z.len()]);
-        let at = At { t: time, dt: read.earlier.map_or(0.0, |row| time - row.time), u: &u, p: &p };
+        let at = At { t: time, dt: read.earlier.as_ref().map_or(0.0, |row| time - row.time), u: &u, p: &p };
         start.function.evaluate(&at, &z, &mut values, &mut slopes);
         let spread = self.spread(start, &read, &p, &slopes)?;
         let mut cov = self.prior.cov.clone();
@@ -86,8 +87,11 @@ impl Model {
     /// The rows that `start` reads, and the place of the last of them in the track.
     fn read_by<'t>(&self, start: &Start, track: &'t Track) -> Result<(usize, Read<'t>), BeginError> {
         let has = |z: &[f64]| start.measures.iter().all(|&i| z.get(i).is_some_and(|z| z.is_finite()));
-        let mut readable = track.rows.iter().enumerate().filter(|(_, row)| has(&row.z));
-        let (first, second) = (readable.next(), readable.next().filter(|_| start.two_rows));
+        let rows = track.rows.iter().enumerate().map(|(k, row)| row.map(|row| (k, row)));
+        let mut readable = rows.filter(|row| row.as_ref().is_ok_and(|(_, row)| has(&row.z)) || row.is_err());
+        let mut next = || readable.next().transpose().map_err(|error| unreadable(&error));
+        let first = next()?;
+        let second = if start.two_rows { next()? } else { None };
         let lacking = |rows: &str| {
             let columns = self.sensors.iter().flat_map(|sensor| &sensor.columns).enumerate();
             let needed =
@@ -152,13 +156,13 @@ impl Model {
 
 /// The rows that `start` reads.
 struct Read<'t> {
-    present: &'t Row,
-    earlier: Option<&'t Row>,
+    present: Cow<'t, Row>,
+    earlier: Option<Cow<'t, Row>>,
 }
 
-impl<'t> Read<'t> {
-    fn rows(&self) -> impl Iterator<Item = &'t Row> {
-        core::iter::once(self.present).chain(self.earlier)
+impl Read<'_> {
+    fn rows(&self) -> impl Iterator<Item = &Row> {
+        core::iter::once(&*self.present).chain(self.earlier.as_deref())
     }
 
     /// The controls and the measurements of the rows, the present one's first. Earlier angles are taken near the
@@ -174,9 +178,14 @@ impl<'t> Read<'t> {
                 _ => earlier,
             }
         };
-        let earlier = self.earlier.into_iter().flat_map(|row| row.z.iter().enumerate().map(near));
+        let earlier = self.earlier.iter().flat_map(|row| row.z.iter().enumerate().map(near));
         [u, self.present.z.iter().copied().chain(earlier).collect()]
     }
+}
+
+fn unreadable(error: &std::io::Error) -> BeginError {
+    let help = "run it again, with a TMPDIR that can be read";
+    BeginError { line: None, message: error.to_string(), help }
 }
 
 fn gaussian(mean: &[f64], cov: &[f64], line: Option<usize>) -> Result<Gaussian, BeginError> {

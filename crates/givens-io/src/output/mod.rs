@@ -10,6 +10,7 @@ mod written;
 use core::num::NonZeroUsize;
 use givens::Estimates;
 use givens::scalar::Shown;
+use std::borrow::Cow;
 use std::io::{self, Write};
 
 pub use destination::{Destination, DestinationError, make_folder, read_back};
@@ -79,6 +80,12 @@ pub struct Part<'a> {
     pub estimates: &'a Estimates,
 }
 
+impl<'a> Part<'a> {
+    fn rows(&self) -> io::Result<Cow<'a, [Row]>> {
+        self.track.rows.read(self.from..self.row + self.estimates.len())
+    }
+}
+
 /// Writes answers part by part. The lines are made on so many threads, all cores where it is not said, and are the same for any.
 #[derive(Clone, Copy, Debug)]
 pub struct AnswerWriter<'a> {
@@ -114,10 +121,10 @@ impl AnswerWriter<'_> {
     /// What the writer says.
     pub fn rows(&self, out: &mut dyn Write, parts: &[Part]) -> io::Result<()> {
         let Self { format, model, tracks, smoothed, gated, threads } = *self;
+        let stretches = parts.iter().map(Part::rows).collect::<io::Result<Vec<_>>>()?;
         let mut lines = Vec::new();
-        for &Part { track, from, row: first, started, estimates } in parts {
-            let rows = track.rows.iter().enumerate().take(first + estimates.len()).skip(from);
-            for (k, row) in rows {
+        for (&Part { track, from, row: first, started, estimates }, rows) in parts.iter().zip(&stretches) {
+            for (k, row) in (from..).zip(rows.iter()) {
                 let estimate = k.checked_sub(first).map(|at| (estimates, at));
                 let sensor = row.sensor.and_then(|i| model.sensors.get(i)).map(|sensor| sensor.name.as_str());
                 let started = started && k == first;

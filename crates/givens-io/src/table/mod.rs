@@ -2,19 +2,31 @@
 
 mod cell;
 mod check;
+mod chunks;
 mod header;
+mod reading;
 mod row;
+mod rows;
 mod sheet;
+mod spool;
+#[cfg(test)]
+mod tests;
 mod time;
 mod truth;
 
+pub use rows::Rows;
 pub use time::Calendar;
 pub use truth::{Truth, read_truth};
 
+use std::fs::File;
+use std::io::{self, Read};
+
+use serde::{Deserialize, Serialize};
+
 use crate::error::InputErrors;
-use crate::findings::Findings;
 use crate::model_file::Model;
-use crate::source::Source;
+use crate::source::{called, unreadable, whole};
+use chunks::Chunks;
 
 /// The rows of a table, track by track.
 #[derive(Clone, Debug)]
@@ -27,6 +39,8 @@ pub struct Tracks {
     pub has_track_id: bool,
     /// Whether the table has the column `sensor`.
     pub has_sensor: bool,
+    /// The least and the most of each measure of the stack; none where no row has it.
+    pub ranges: Vec<Option<[f64; 2]>>,
     /// Tells the text of the table from others.
     pub fingerprint: String,
 }
@@ -39,13 +53,13 @@ pub struct Track {
     /// The time at which the initial belief holds: `[state] time`, or the first row's.
     pub start: f64,
     /// The rows. Never empty.
-    pub rows: Vec<Row>,
+    pub rows: Rows,
     /// The instant from which the times of the track count, if the table gives them in RFC 3339.
     pub origin: Option<Calendar>,
 }
 
 /// One row of a table.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Row {
     /// Line in the file, from one.
     pub line: usize,
@@ -95,10 +109,12 @@ impl Track {
 /// Times are seconds, or RFC 3339. The latter count from `[state] time` if that is such a time too, else from the
 /// first row of each track; a number of `[state] time` then places the belief that many seconds after the first row.
 ///
+/// Some 500,000 rows are held in memory. The others of a longer table, and so of standard input, lie in a temporary file.
+///
 /// # Errors
 /// Everything that is wrong with the table, by line, column and name.
 pub fn read_tracks(path: &str, model: &Model) -> Result<Tracks, InputErrors> {
-    tracks(&Source::read(path)?, model, true)
+    read(path, model, true)
 }
 
 /// Reads a table of rows to simulate, which need only bring times, and the controls of the model if it has some. `z` is
@@ -108,7 +124,7 @@ pub fn read_tracks(path: &str, model: &Model) -> Result<Tracks, InputErrors> {
 /// # Errors
 /// As [`read_tracks`].
 pub fn read_times(path: &str, model: &Model) -> Result<Tracks, InputErrors> {
-    tracks(&Source::read(path)?, model, false)
+    read(path, model, false)
 }
 
 /// [`read_tracks`] from a text; errors call it `name`.
@@ -116,11 +132,18 @@ pub fn read_times(path: &str, model: &Model) -> Result<Tracks, InputErrors> {
 /// # Errors
 /// As [`read_tracks`].
 pub fn parse_tracks(text: &str, name: &str, model: &Model) -> Result<Tracks, InputErrors> {
-    tracks(&Source::new(name, text.to_string()), model, true)
+    tracks(&mut text.as_bytes(), name, model, true)
 }
 
-fn tracks(source: &Source, model: &Model, measured: bool) -> Result<Tracks, InputErrors> {
-    let findings = Findings::new(source);
-    let tracks = row::tracks(&findings, model, measured);
-    findings.finish(tracks)
+fn read(path: &str, model: &Model, measured: bool) -> Result<Tracks, InputErrors> {
+    let name = called(path);
+    if path == "-" {
+        return tracks(&mut io::stdin().lock(), name, model, measured);
+    }
+    let mut file = File::open(path).map_err(|error| whole(name, unreadable(&error)))?;
+    tracks(&mut file, name, model, measured)
+}
+
+fn tracks(text: &mut dyn Read, name: &str, model: &Model, measured: bool) -> Result<Tracks, InputErrors> {
+    reading::tracks(Chunks::new(name, text, chunks::USUAL), name, model, measured, reading::HELD)
 }

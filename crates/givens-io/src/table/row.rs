@@ -1,66 +1,19 @@
-//! Rows: cells become measures and controls, rows become tracks.
-
-use std::collections::HashMap;
+//! Rows: cells become measures and controls.
 
 use givens_expr::suggest;
 
+use super::Row;
 use super::cell::{Cell, number, short};
-use super::header::{self, Columns};
-use super::sheet::{Fields, Sheet};
+use super::header::Columns;
+use super::sheet::Fields;
 use super::time::{Time, time};
-use super::{Row, Tracks, check};
 use crate::findings::{Findings, list};
 use crate::model_file::Model;
 
-/// A row with its time as the table gives it, and the byte where it begins.
+/// A row with its time as the table gives it.
 pub(super) struct Raw {
     pub row: Row,
     pub time: Time,
-    pub start: usize,
-}
-
-/// Reads a whole table.
-pub(super) fn tracks(findings: &Findings, model: &Model, measured: bool) -> Option<Tracks> {
-    let known = if measured { "time and the measures" } else { "time" };
-    let mut sheet = Sheet::open(findings, known)?;
-    let measured = measured || header::names_measures(&sheet, model);
-    let columns = header::columns(&sheet, model, measured)?;
-    let mut ids: Vec<Option<String>> = Vec::new();
-    let mut rows: Vec<Vec<Raw>> = Vec::new();
-    let mut known: HashMap<String, usize> = HashMap::new();
-    let (mut before, mut index) = (None, 0);
-    while let Some(fields) = sheet.next_row() {
-        let raw = row(findings, &fields, &columns, model, before, index);
-        index += 1;
-        let track = match columns.track {
-            Some(column) => track_id(findings, &fields, column),
-            None => Some(""),
-        };
-        let (Some(raw), Some(id)) = (raw, track) else { continue };
-        before = before.or(Some(raw.time));
-        let track = if let Some(&track) = known.get(id) {
-            track
-        } else {
-            known.insert(id.to_string(), rows.len());
-            ids.push(columns.track.map(|_| id.to_string()));
-            rows.push(Vec::new());
-            rows.len() - 1
-        };
-        if let Some(rows) = rows.get_mut(track) {
-            rows.push(raw);
-        }
-    }
-    if index == 0 && findings.none() {
-        let error = findings.source.whole("the table has a header but no rows");
-        findings.push(error.with_help("each row below the header is one measurement"));
-    }
-    let mut tracks = Vec::with_capacity(rows.len());
-    for (id, rows) in ids.into_iter().zip(rows) {
-        tracks.push(check::track(findings, model, id, rows, columns.time)?);
-    }
-    let (has_track_id, has_sensor) = (columns.track.is_some(), columns.sensor.is_some());
-    let fingerprint = findings.source.fingerprint();
-    Some(Tracks { tracks, ignored: columns.ignored, has_track_id, has_sensor, fingerprint })
 }
 
 /// The cell of `track_id`.
@@ -74,7 +27,8 @@ pub(super) fn track_id<'f>(findings: &Findings, fields: &'f Fields, column: usiz
     Some(id)
 }
 
-fn row(
+/// Reads a row; what is wrong is found so.
+pub(super) fn row(
     findings: &Findings,
     fields: &Fields,
     columns: &Columns,
@@ -113,7 +67,7 @@ fn row(
         z,
         u,
     };
-    Some(Raw { row, time, start: fields.start() })
+    Some(Raw { row, time })
 }
 
 /// What was wrong was found so.

@@ -14,6 +14,10 @@ pub(super) struct Sheet<'a> {
     start: usize,
     reader: csv::Reader<&'a [u8]>,
     record: csv::StringRecord,
+    /// Whether another stretch of the table follows: a record that reaches the end of this one may go on there.
+    goes_on: bool,
+    /// The byte up to which rows were read.
+    used: usize,
 }
 
 /// One row of a table.
@@ -28,8 +32,7 @@ impl<'a> Sheet<'a> {
     /// Reads the header; an empty text is found wrong.
     pub fn open(findings: &'a Findings<'a>, columns: &str) -> Option<Self> {
         let source = findings.source;
-        let mut reader =
-            csv::ReaderBuilder::new().has_headers(false).flexible(true).from_reader(source.text.as_bytes());
+        let mut reader = reader(source);
         let mut record = csv::StringRecord::new();
         if source.text.trim().is_empty() || !read(&mut reader, &mut record) {
             let help = format!("the first line names the columns: {columns}");
@@ -38,9 +41,26 @@ impl<'a> Sheet<'a> {
         }
         let header: Vec<String> = record.iter().map(|name| name.trim().to_string()).collect();
         let start = start_of(source, &record);
-        let sheet = Self { findings, header, start, reader, record };
+        let used = reader.position().byte() as usize;
+        let sheet = Self { findings, header, start, reader, record, goes_on: false, used };
         sheet.duplicates();
         Some(sheet)
+    }
+
+    /// Another stretch of a table, whose header was read before.
+    pub fn resume(findings: &'a Findings<'a>, header: Vec<String>) -> Self {
+        let reader = reader(findings.source);
+        Self { findings, header, start: 0, reader, record: csv::StringRecord::new(), goes_on: false, used: 0 }
+    }
+
+    /// The same, if other stretches follow.
+    pub fn going_on(self, goes_on: bool) -> Self {
+        Self { goes_on, ..self }
+    }
+
+    /// The header, and the byte from which on nothing was read.
+    pub fn into_rest(self) -> (Vec<String>, usize) {
+        (self.header, self.used)
     }
 
     /// The place of a column's name.
@@ -73,9 +93,12 @@ impl<'a> Sheet<'a> {
     /// The next row with as many fields as the header; others are found wrong and passed over.
     pub fn next_row(&mut self) -> Option<Fields<'_>> {
         loop {
-            if !read(&mut self.reader, &mut self.record) {
+            let is_read = read(&mut self.reader, &mut self.record);
+            let end = self.reader.position().byte() as usize;
+            if !is_read || self.goes_on && end >= self.findings.source.text.len() {
                 return None;
             }
+            self.used = end;
             let start = start_of(self.findings.source, &self.record);
             if self.record.len() == self.header.len() {
                 break;
@@ -106,6 +129,10 @@ impl<'a> Sheet<'a> {
     }
 }
 
+fn reader(source: &Source) -> csv::Reader<&[u8]> {
+    csv::ReaderBuilder::new().has_headers(false).flexible(true).from_reader(source.text.as_bytes())
+}
+
 /// Reads one record. The text is UTF-8 and rows may have any length, so nothing else can end it but its end.
 fn read(reader: &mut csv::Reader<&[u8]>, record: &mut csv::StringRecord) -> bool {
     reader.read_record(record).unwrap_or(false)
@@ -120,11 +147,13 @@ fn start_of(source: &Source, record: &csv::StringRecord) -> usize {
 
 /// The span of field `index` of the record that begins at `start`.
 pub(super) fn field_span(text: &str, start: usize, index: usize) -> Range<usize> {
-    let (mut field, mut begin, mut quoted) = (0, start, false);
+    let (mut field, mut begin, mut quoted, mut closed) = (0, start, false, None);
     let bytes = text.as_bytes().get(start..).unwrap_or(&[]);
     for (at, &byte) in bytes.iter().enumerate() {
         match byte {
-            b'"' => quoted = !quoted,
+            b'"' if quoted => (quoted, closed) = (false, Some(at + 1)),
+            // a mark opens a field at its beginning only, or goes on with one in which it is doubled
+            b'"' if start + at == begin || closed == Some(at) => quoted = true,
             b',' | b'\n' | b'\r' if !quoted => {
                 if field == index || byte != b',' {
                     return begin..start + at;
@@ -146,7 +175,7 @@ impl Fields<'_> {
 
     /// The line, from one.
     pub fn line(&self) -> usize {
-        self.source.line_of(self.start) + 1
+        self.source.number(self.start)
     }
 
     pub fn start(&self) -> usize {

@@ -58,7 +58,7 @@ fn a_shared_column_needs_a_sensor() {
     );
     let tracks =
         parse_tracks("time,range,bearing,sensor\n1,2,3,radar\n1,2,,gps\n", "d.csv", &sharing()).unwrap();
-    let z = |k: usize| tracks.tracks[0].rows[k].z.clone();
+    let z = |k: usize| tracks.tracks[0].rows.row(k).unwrap().unwrap().z;
     assert_eq!(z(0)[..2], [2.0, 3.0]);
     assert!(z(0)[2].is_nan() && z(1)[0].is_nan() && z(1)[1].is_nan());
     assert_eq!(z(1)[2], 2.0);

@@ -1,6 +1,6 @@
 //! Models from files.
 
-use givens_io::{BeginError, Dynamics, Model as File, Row, SettingValue, Track};
+use givens_io::{BeginError, Dynamics, Model as File, Row, Rows, SettingValue, Track};
 use numpy::{PyReadonlyArrayDyn, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyString};
@@ -164,7 +164,7 @@ impl Model {
         };
         let rows: Vec<Row> = time.iter().enumerate().map(row).collect();
         let start = file.time.or(time.first().copied()).unwrap_or(0.0);
-        let track = Track { id: None, start, rows, origin: None };
+        let track = Track { id: None, start, rows: Rows::from(rows), origin: None };
         let begun = file.begin(&track).map_err(no_beginning)?;
         let n = self.states();
         let mean = frozen(py, begun.prior.mean().to_vec(), &[n])?;

@@ -17,15 +17,15 @@ pub(crate) use workers::each;
 
 pub use crate::scalar::InstructionSet;
 
-/// One trajectory of a batch: its measurements and its prior, over a model and sensors that may be its own.
+/// One trajectory of a batch or of a stream: its measurements and its prior, over a model and sensors that may be its own.
 #[derive(Debug)]
-pub struct Track<'a, M, H> {
+pub struct Track<'a, M, H, D: ?Sized = Data> {
     /// How the state moves.
     pub model: &'a M,
     /// What is measured; several sensors are a tuple.
     pub sensors: &'a H,
-    /// The measurements.
-    pub data: &'a Data,
+    /// The measurements; for a stream any [`Source`](crate::Source) of them.
+    pub data: &'a D,
     /// The belief at [`Data::start`].
     pub prior: &'a Gaussian,
     /// Parameters of its own, in place of the model's, which are as many; empty: the model's.
@@ -34,20 +34,20 @@ pub struct Track<'a, M, H> {
     pub at: &'a [f64],
 }
 
-impl<'a, M, H> Track<'a, M, H> {
+impl<'a, M, H, D: ?Sized> Track<'a, M, H, D> {
     /// A trajectory with the model's own parameters and without further times.
-    pub const fn new(model: &'a M, sensors: &'a H, data: &'a Data, prior: &'a Gaussian) -> Self {
+    pub const fn new(model: &'a M, sensors: &'a H, data: &'a D, prior: &'a Gaussian) -> Self {
         Self { model, sensors, data, prior, parameters: &[], at: &[] }
     }
 }
 
-impl<M, H> Clone for Track<'_, M, H> {
+impl<M, H, D: ?Sized> Clone for Track<'_, M, H, D> {
     fn clone(&self) -> Self {
         *self
     }
 }
 
-impl<M, H> Copy for Track<'_, M, H> {}
+impl<M, H, D: ?Sized> Copy for Track<'_, M, H, D> {}
 
 /// How a batch is run.
 ///

@@ -16,7 +16,7 @@ pub use goal::{Goal, Outcome};
 pub(crate) use own::{OwnFilter, Start, of_kind, scatter, start_own};
 pub(crate) use recorder::{Recorder, told, write_cov};
 pub use sample::{Draws, Samples, sample};
-pub(crate) use task::Task;
+pub(crate) use task::{Rows, Task};
 pub(crate) use watch::Watch;
 
 use crate::filter::{Gaussian, StepError};

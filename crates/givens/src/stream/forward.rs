@@ -14,8 +14,8 @@ const TOGETHER: usize = 8192;
 
 /// Runs over the rows, and hands them to `sink`.
 pub(super) fn stream(course: &Course, by: &Stream, sink: &mut dyn Sink) -> Ended {
-    let (data, goal, watch, hold) = (course.data, course.goal, course.watch, by.hold);
-    let (rows, mut outcome) = (data.len(), course.blank());
+    let (goal, hold) = (course.goal, by.hold);
+    let (rows, mut outcome) = (course.data.len(), course.blank());
     // what a later row may change stays; the last row, for a time that is its own
     let (together, keep) = match goal {
         Goal::Interval => (rows, 0),
@@ -29,13 +29,14 @@ pub(super) fn stream(course: &Course, by: &Stream, sink: &mut dyn Sink) -> Ended
     let markable = matches!(goal, Goal::Filter | Goal::Lag(_));
     // where portions began: the first of them before the rows that were not handed over yet
     let mut stands: VecDeque<Stand> = VecDeque::new();
-    while next < rows && outcome.failure.is_none() && !watch.stopped() {
+    while next < rows && outcome.failure.is_none() && !course.stopped() {
         let end = (next + together.max(1)).min(rows);
         if markable {
             let (row, log_likelihood) = (next, outcome.log_likelihood);
             stands.push_back(Stand { row, filter: recorder.snapshot(), log_likelihood });
         }
-        recorder.forward(data, next..end, &mut outcome);
+        let Some(read) = course.read(next..end) else { break };
+        recorder.forward(&read, next..end, &mut outcome);
         next = end;
         if next < rows && outcome.failure.is_none() {
             let first = recorder.finished().saturating_sub(outcome.estimates.len());
@@ -55,7 +56,7 @@ pub(super) fn stream(course: &Course, by: &Stream, sink: &mut dyn Sink) -> Ended
     // a recorder that went on, and failed at once, has finished nothing
     let first = recorder.finished().max(given.rows).saturating_sub(outcome.estimates.len());
     recorder.finish(&mut outcome, None);
-    if !watch.stopped() {
+    if !course.stopped() {
         let [estimates, at] = [&mut outcome.estimates, &mut outcome.at].map(core::mem::take);
         // nothing follows, whatever is answered
         let _ = given.hand(first, estimates, at, sink);

@@ -50,7 +50,7 @@ pub(super) fn stream(course: &Course, by: &Stream, sink: &mut dyn Sink) -> Ended
                 let failure = outcome.failure.filter(|_| crossed.is_none());
                 failure.map_or(Ok(crossed), Err)
             });
-            if watch.stopped() {
+            if course.stopped() {
                 return ended;
             }
             match crossed {
@@ -77,7 +77,7 @@ pub(super) fn stream(course: &Course, by: &Stream, sink: &mut dyn Sink) -> Ended
             Ok::<_, (usize, StepError)>(outcome)
         });
         for (j, outcome) in group.zip(done) {
-            let (Ok(outcome), false) = (outcome, watch.stopped()) else { return ended };
+            let (Ok(outcome), false) = (outcome, course.stopped()) else { return ended };
             let Outcome { estimates, at, .. } = &outcome;
             let rows = segments.rows(j);
             progress.add(rows.len());

@@ -5,6 +5,7 @@ mod forward;
 mod interval;
 mod mark;
 mod segments;
+mod source;
 
 use crate::batch::Track;
 use crate::filter::StepError;
@@ -18,6 +19,7 @@ use core::sync::atomic::{AtomicBool, AtomicUsize};
 use course::Course;
 
 pub use mark::Mark;
+pub use source::{Source, Stretch};
 
 /// Rows that are finished together.
 #[derive(Clone, Copy, Debug)]
@@ -123,13 +125,15 @@ impl Stream<'_> {
 
     /// Runs a method over a trajectory, and hands its rows to `sink`; a method of run time by
     /// [`Choice::stream`](crate::registry::Choice::stream).
-    pub fn run<X, M, H>(&self, method: X, track: &Track<M, H>, sink: &mut dyn Sink) -> Ended
+    pub fn run<X, M, H, D>(&self, method: X, track: &Track<M, H, D>, sink: &mut dyn Sink) -> Ended
     where
         X: Computes<M, Method: Send + Sync>,
         M: Sync,
         H: Observation + Sync,
+        D: Source + ?Sized,
     {
         let Track { model, sensors, data, prior, parameters, at } = *track;
+        let data: &dyn Source = &data;
         let (goal, watch) = (self.goal, Watch { cancel: self.cancel, rows: self.rows });
         // a smoother in segments counts its rows itself
         let segments = goal == Goal::Interval && (data.len() > self.hold || !self.from.is_empty());
@@ -143,7 +147,8 @@ impl Stream<'_> {
         };
         let task = Task { method: method.method(), model, sensors, parameters, goal, limits, watch: counted };
         let begin = |start: Start<'_>, rows, at| course::begin::<_, _, _, X::Number>(task, start, rows, at);
-        let course = Course { begin: &begin, data, prior, at, goal, measures: sensors.measures(), watch };
+        let (measures, lost) = (sensors.measures(), AtomicBool::new(false));
+        let course = Course { begin: &begin, data, prior, at, goal, measures, watch, lost };
         if segments { interval::stream(&course, self, sink) } else { forward::stream(&course, self, sink) }
     }
 }

@@ -36,8 +36,7 @@ impl<'s, 't> Segments<'s, 't> {
         sink: &mut dyn Sink,
         progress: &mut Progress,
     ) -> Result<Found<'s, 't, 'f>, StepError> {
-        let (data, mut outcome) = (course.data, course.blank());
-        let rows = data.len();
+        let (rows, mut outcome) = (course.data.len(), course.blank());
         let mut segments = Self { course, length, starts: Vec::new(), finished: 0, begun: rows };
         let mut before = from;
         while let [Mark(Kind::Segment { length, stand }), rest @ ..] = before {
@@ -54,7 +53,7 @@ impl<'s, 't> Segments<'s, 't> {
         // the segment that was at work begins again
         let mut is_marked = !segments.starts.is_empty();
         let mut recorder = match segments.starts.last() {
-            None => (course.begin)(Start::Prior(data.start(), course.prior), 1, course.at)?,
+            None => (course.begin)(Start::Prior(course.data.start(), course.prior), 1, course.at)?,
             Some(last) => {
                 segments.finished = last.row;
                 outcome.log_likelihood = last.log_likelihood;
@@ -62,7 +61,7 @@ impl<'s, 't> Segments<'s, 't> {
                 (course.begin)(last.start(), 1, &course.at[course.up_to(last.row)..])?
             }
         };
-        while segments.finished < rows && !course.watch.stopped() {
+        while segments.finished < rows && !course.stopped() {
             if !is_marked {
                 let (row, filter) = (segments.finished, recorder.snapshot());
                 let stand = Stand { row, filter, log_likelihood: outcome.log_likelihood };
@@ -71,7 +70,8 @@ impl<'s, 't> Segments<'s, 't> {
             }
             is_marked = false;
             let end = (segments.finished + segments.length).min(rows);
-            recorder.forward(data, segments.finished..end, &mut outcome);
+            let Some(read) = course.read(segments.finished..end) else { break };
+            recorder.forward(&read, segments.finished..end, &mut outcome);
             // a recorder that went on has finished nothing yet
             let finished = recorder.finished().max(segments.finished);
             progress.add(finished - segments.finished);
@@ -85,7 +85,7 @@ impl<'s, 't> Segments<'s, 't> {
         }
         recorder.beyond(&mut outcome);
         let ended = Ended::of(outcome);
-        if ended.failure.is_none() && !course.watch.stopped() {
+        if ended.failure.is_none() && !course.stopped() {
             let (finished, log_likelihood) = (segments.finished, ended.log_likelihood);
             sink.mark(Mark(Kind::Filtered { finished, log_likelihood }));
         }
@@ -107,14 +107,16 @@ impl<'s, 't> Segments<'s, 't> {
     /// Filters segment `j` again, up to what failed.
     pub fn forward(&self, j: usize) -> Result<(Box<dyn Recording + Send + 't>, Outcome), (usize, StepError)> {
         let Range { start, end } = self.rows(j);
-        let (data, at, is_last) = (self.course.data, self.course.at, j + 1 == self.count());
+        let (at, is_last) = (self.course.at, j + 1 == self.count());
         // a row that failed is tried again: the way back begins where it left the filter
         let rows = start..if is_last { self.begun } else { end + 1 };
         let wanted = &at[self.course.before(start)..if is_last { at.len() } else { self.course.before(end) }];
         let begun = (self.course.begin)(self.starts[j].start(), rows.len(), wanted);
         let mut recorder = begun.map_err(|error| (start, error))?;
         let mut outcome = self.course.blank();
-        recorder.forward(data, rows, &mut outcome);
+        if let Some(read) = self.course.read(rows.clone()) {
+            recorder.forward(&read, rows, &mut outcome);
+        }
         recorder.beyond(&mut outcome);
         Ok((recorder, outcome))
     }

@@ -22,6 +22,7 @@ mod report;
 mod session;
 mod stdout;
 mod streaming;
+mod sums;
 mod thin;
 mod timetable;
 mod trajectory;

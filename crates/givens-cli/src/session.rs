@@ -6,16 +6,18 @@ use crate::figure::Shown;
 use crate::instants::Instants;
 use crate::message::Stop;
 use crate::plan::Plan;
-use crate::portion::portions;
+use crate::portion::{Portion, portions};
 use crate::progress::Progress;
-use crate::report::{Gated, Summary};
+use crate::sums::Sums;
 use core::num::NonZeroUsize;
-use core::sync::atomic::Ordering;
+use core::ops::{ControlFlow, Range};
+use core::sync::atomic::{AtomicUsize, Ordering};
+use core::time::Duration;
 use givens::batch::Batch;
-use givens::metrics::{Accuracy, Consistency, InnovationSums};
 use givens::registry::Choice;
 use givens::{Estimates, Goal, Outcome};
 use givens_io::Answer;
+use std::time::Instant;
 
 /// How a plan is carried out.
 #[derive(Clone, Copy)]
@@ -30,12 +32,15 @@ pub struct Manner<'a> {
     pub judged: bool,
 }
 
-/// What came of a portion of the tracks: answers, those at the times of `--at`, failures, and the innovations so far.
-pub type Done = (Vec<Answer>, Vec<Answer>, Vec<String>, Option<InnovationSums>);
+/// What came of a portion of the tracks: answers, those at the times of `--at`, failures, and the sums so far.
+pub type Done = (Vec<Answer>, Vec<Answer>, Vec<String>, Sums);
+
+/// Takes the answers of tracks that follow each other, and those at the times of `--at`.
+pub type Take<'a> = &'a mut dyn FnMut(Range<usize>, &[Answer], &[Answer]) -> ControlFlow<()>;
 
 /// What came of a plan.
 pub struct Session {
-    /// One for each track.
+    /// One for each track, if they are held.
     pub answers: Vec<Answer>,
     /// Tracks that failed, in words.
     pub failures: Vec<String>,
@@ -43,18 +48,15 @@ pub struct Session {
     goals: Vec<Goal>,
     /// The answers at the times of `--at`, one for each track; empty without it.
     pub at: Vec<Answer>,
-    /// For a report, if one is made.
-    pub innovations: Option<InnovationSums>,
+    pub sums: Sums,
+    /// How long the methods were at work.
+    pub took: Duration,
 }
 
 impl Session {
-    /// Runs `choice` over all tracks; a track that fails does not stop the others.
-    pub fn run(plan: &Plan, choice: &Choice, goals: &[Goal], manner: Manner) -> Result<Self, Stop> {
-        Self::resume(plan, choice, goals, manner, Vec::new(), None)
-    }
-
-    /// The same behind the portions that another run has done; what is `kept` is brought up to date on the way.
-    pub fn resume(
+    /// Runs `choice` over the tracks behind the portions that another run has done, and holds all answers; what is `kept` is
+    /// brought up to date on the way. A track that fails does not stop the others.
+    pub fn hold(
         plan: &Plan,
         choice: &Choice,
         goals: &[Goal],
@@ -62,45 +64,25 @@ impl Session {
         done: Vec<Done>,
         mut kept: Option<&mut Checkpoint>,
     ) -> Result<Self, Stop> {
-        let rows = plan.tracks.tracks.iter().map(|track| track.rows.len()).sum();
-        let mut session = Self {
-            answers: Vec::new(),
-            failures: Vec::new(),
-            goals: goals.to_vec(),
-            at: Vec::new(),
-            innovations: None,
-        };
-        session.innovations = manner.judged.then(|| InnovationSums::new(plan.model.measures()));
-        Progress::new(rows).during(|count| {
+        let mut session = Self::new(plan, goals, manner);
+        Progress::new(rows(plan)).during(|count| {
             let mut done = done.into_iter();
             for portion in portions(plan, goals) {
-                if let Some((answers, at, failures, innovations)) = done.next() {
-                    count.fetch_add(
-                        answers.iter().map(|answer| answer.estimates.len()).sum(),
-                        Ordering::Relaxed,
-                    );
+                if let Some((answers, at, failures, sums)) = done.next() {
+                    let rows = answers.iter().map(|answer| answer.estimates.len()).sum();
+                    count.fetch_add(rows, Ordering::Relaxed);
                     session.answers.extend(answers);
                     session.at.extend(at);
                     session.failures.extend(failures);
-                    session.innovations = innovations;
+                    session.sums = sums;
                     continue;
                 }
                 let Self { answers, at, failures, .. } = &session;
                 let before = (answers.len(), at.len(), failures.len());
-                let batch = Batch {
-                    goal: portion.goal,
-                    threads: manner.threads,
-                    rows: Some(count),
-                    ..Batch::default()
-                };
-                let outcomes = portion.run(plan, choice, &batch, manner.at)?;
-                for (i, outcome) in portion.tracks.zip(outcomes) {
-                    session.take(plan, choice, i, outcome, manner);
-                }
+                session.portion(plan, choice, portion, manner, count)?;
                 if let Some(kept) = &mut kept {
-                    let Self { answers, at, failures, .. } = &session;
-                    let done =
-                        (&answers[before.0..], &at[before.1..], &failures[before.2..], &session.innovations);
+                    let Self { answers, at, failures, sums, .. } = &session;
+                    let done = (&answers[before.0..], &at[before.1..], &failures[before.2..], sums);
                     kept.append(&done)
                         .map_err(|error| Stop::failed(format!("cannot write the output: {error}")))?;
                 }
@@ -108,6 +90,60 @@ impl Session {
             Ok::<(), Stop>(())
         })?;
         Ok(session)
+    }
+
+    /// Runs `choice` over all tracks, with the answers of a portion of them handed over as soon as they are there, and not held.
+    pub fn hand_over(
+        plan: &Plan,
+        choice: &Choice,
+        goals: &[Goal],
+        manner: Manner,
+        take: Take,
+    ) -> Result<Self, Stop> {
+        let mut session = Self::new(plan, goals, manner);
+        Progress::new(rows(plan)).during(|count| {
+            for portion in portions(plan, goals) {
+                let tracks = portion.tracks.clone();
+                session.portion(plan, choice, portion, manner, count)?;
+                let [answers, at] = [&mut session.answers, &mut session.at].map(core::mem::take);
+                if take(tracks, &answers, &at).is_break() {
+                    break;
+                }
+            }
+            Ok::<(), Stop>(())
+        })?;
+        Ok(session)
+    }
+
+    fn new(plan: &Plan, goals: &[Goal], manner: Manner) -> Self {
+        Self {
+            answers: Vec::new(),
+            failures: Vec::new(),
+            goals: goals.to_vec(),
+            at: Vec::new(),
+            sums: Sums::new(plan, manner.judged),
+            took: Duration::ZERO,
+        }
+    }
+
+    /// Runs some of the tracks, and takes in what comes of them.
+    fn portion(
+        &mut self,
+        plan: &Plan,
+        choice: &Choice,
+        portion: Portion,
+        manner: Manner,
+        count: &AtomicUsize,
+    ) -> Result<(), Stop> {
+        let Manner { at, threads, .. } = manner;
+        let batch = Batch { goal: portion.goal, threads, rows: Some(count), ..Batch::default() };
+        let begun = Instant::now();
+        let outcomes = portion.run(plan, choice, &batch, at)?;
+        self.took += begun.elapsed();
+        for (i, outcome) in portion.tracks.zip(outcomes) {
+            self.take(plan, choice, i, outcome, manner);
+        }
+        Ok(())
     }
 
     /// Takes in what came of track `i`.
@@ -130,51 +166,9 @@ impl Session {
             row += ran.saturating_sub(outcome.estimates.len());
         }
         let started = begin.started && row == begin.row;
-        if let Some(sums) = &mut self.innovations {
-            sums.add(i, row, &outcome.estimates);
-        }
+        self.sums.add(plan, i, row, goal, &outcome.estimates);
         let estimates = kept(outcome.estimates, manner.whole);
         self.answers.push(Answer { estimates, row, started, from_first });
-    }
-
-    /// All estimates.
-    pub fn estimates(&self) -> impl Iterator<Item = &Estimates> {
-        self.answers.iter().map(|answer| &answer.estimates)
-    }
-
-    /// Log-likelihood of all tracks.
-    pub fn log_likelihood(&self) -> f64 {
-        self.estimates().map(Estimates::total_log_likelihood).fold(0.0, core::ops::Add::add)
-    }
-
-    /// Errors against the truth, of all tracks together and of each state.
-    pub fn accuracy(&self, plan: &Plan) -> Option<Accuracy> {
-        plan.truth.as_ref()?;
-        let accuracies = (0..self.answers.len()).filter_map(|i| {
-            let estimates = &self.answers[i].estimates;
-            Some(Accuracy::of(estimates, &plan.truth_at(i, self.goals[i], estimates.time.iter().copied())?))
-        });
-        Accuracy::pooled(accuracies)
-    }
-
-    /// The rows beyond the gate.
-    pub fn gated(&self) -> Gated {
-        let mut gated = Gated::default();
-        for (i, answer) in self.answers.iter().enumerate() {
-            gated.add(i, answer.row, &answer.estimates);
-        }
-        gated
-    }
-
-    /// What the rows add up to.
-    pub fn summary(&self, plan: &Plan) -> Summary {
-        Summary {
-            rows: self.estimates().map(Estimates::len).sum(),
-            log_likelihood: self.log_likelihood(),
-            consistency: Consistency::of(self.estimates()),
-            gated: self.gated(),
-            accuracy: self.accuracy(plan),
-        }
     }
 
     /// What a figure of it shows.
@@ -187,6 +181,10 @@ impl Session {
         };
         (0..self.answers.len()).map(one).collect()
     }
+}
+
+fn rows(plan: &Plan) -> usize {
+    plan.tracks.tracks.iter().map(|track| track.rows.len()).sum()
 }
 
 /// Leaves the numbers that the command goes on to use; without the `whole` of them those of a CSV, a figure and a verdict.

@@ -8,14 +8,13 @@ use crate::instants::Instants;
 use crate::message::{Stop, say};
 use crate::plan::Plan;
 use crate::progress::Progress;
-use crate::report::{Gated, Summary};
 use crate::session::Manner;
+use crate::sums::Sums;
 use crate::thin::Thinned;
 use crate::trajectory::Trajectory;
 use core::num::NonZeroUsize;
 use core::ops::ControlFlow;
 use givens::batch::Track;
-use givens::metrics::{AccuracySums, ConsistencySums, InnovationSums};
 use givens::{Estimates, Finished, Goal, Mark, Sink, Source, Stream};
 use givens_io::{AnswerWriter, Dynamics, Format, Part, Tracks, Written};
 use serde::{Deserialize, Serialize};
@@ -32,32 +31,26 @@ pub struct Streaming<'p> {
     goal: Goal,
     at: Option<&'p Instants>,
     writer: AnswerWriter<'p>,
-    sums: Sums,
+    come: Come,
     failure: Option<String>,
     stop: Option<Stop>,
 }
 
 /// Of all rows so far.
 #[derive(Clone, Default, Serialize, Deserialize)]
-struct Sums {
+struct Come {
     /// What stands in the output: whether any row of the table, and how many times of `--at`.
     written: (bool, usize),
     /// What figures are drawn through, if any are.
     thinned: Option<(Thinned, Estimates)>,
-    accuracy: Option<AccuracySums>,
-    rows: usize,
-    log_likelihood: f64,
-    consistency: ConsistencySums,
-    /// For a report, if one is made.
-    innovations: Option<InnovationSums>,
-    gated: Gated,
+    sums: Sums,
 }
 
 /// What a checkpoint keeps: the output, what was found, and how far the stream has come.
 #[derive(Serialize, Deserialize)]
 pub struct Stand {
     pub output: Written,
-    sums: Sums,
+    come: Come,
     marks: Vec<Mark>,
 }
 
@@ -80,13 +73,11 @@ impl<'p> Streaming<'p> {
             }
             thinned = Some((Thinned::new(rows.len() - begin.row, measured), Estimates::default()));
         }
-        let accuracy = plan.truth.as_ref().map(|_| AccuracySums::new(plan.model.states.len()));
         let (smoothed, threads) = (goal != Goal::Filter, manner.threads);
         let (model, tracks, gated) = (&plan.model, &plan.tracks, plan.choice.gate.is_some());
         let writer = AnswerWriter { format, model, tracks, smoothed, gated, threads };
-        let innovations = manner.judged.then(|| InnovationSums::new(plan.model.measures()));
-        let sums = Sums { thinned, accuracy, innovations, ..Sums::default() };
-        Ok(Self { plan, goal, at: manner.at, writer, sums, failure: None, stop: None })
+        let come = Come { thinned, sums: Sums::new(plan, manner.judged), ..Come::default() };
+        Ok(Self { plan, goal, at: manner.at, writer, come, failure: None, stop: None })
     }
 
     /// Runs, from where another run stands if one does, and writes the answers; what is `kept` is brought up to date on the way.
@@ -107,7 +98,7 @@ impl<'p> Streaming<'p> {
         let tracks = self.at.map(|at| at.tracks(plan));
         let mut marks = Vec::new();
         match from {
-            Some(stand) => (self.sums, marks) = (stand.sums, stand.marks),
+            Some(stand) => (self.come, marks) = (stand.come, stand.marks),
             None => {
                 AnswerWriter { tracks: tracks.as_ref().unwrap_or(&plan.tracks), ..self.writer }
                     .header(out)?;
@@ -133,10 +124,11 @@ impl<'p> Streaming<'p> {
         let mut done = desk.done;
         self.stop = data.stop();
         if let Some((row, error)) = &ended.failure {
-            let failed = Failed { row: *row, error, set_out: &ended.failed_at, finished: self.sums.rows };
+            let failed =
+                Failed { row: *row, error, set_out: &ended.failed_at, finished: self.come.sums.rows };
             self.failure = Some(failed.told(plan, &plan.choice, 0, self.goal));
         }
-        if self.sums.rows == 0 && done.is_ok() {
+        if self.come.sums.rows == 0 && done.is_ok() {
             // the rows before the belief holds have their empty lines all the same
             let nothing = Estimates::default();
             done =
@@ -164,7 +156,7 @@ impl<'p> Streaming<'p> {
     }
 
     fn write(&mut self, out: &mut dyn Write, finished: &Finished, at: Option<&Tracks>) -> io::Result<()> {
-        let (begun, times) = self.sums.written;
+        let (begun, times) = self.come.written;
         if let Some(tracks) = at {
             let part = Part {
                 track: &tracks.tracks[0],
@@ -173,14 +165,14 @@ impl<'p> Streaming<'p> {
                 started: false,
                 estimates: finished.at,
             };
-            self.sums.written.1 += finished.at.len();
+            self.come.written.1 += finished.at.len();
             return AnswerWriter { tracks, ..self.writer }.rows(out, &[part]);
         }
         let begin = &self.plan.beginnings[0];
         let row = begin.row + finished.first;
         let is_point = matches!(self.goal, Goal::Point(_));
         let from = if begun || is_point { row } else { 0 };
-        self.sums.written.0 |= !finished.estimates.is_empty();
+        self.come.written.0 |= !finished.estimates.is_empty();
         let started = begin.started && row == begin.row;
         let track = &self.plan.tracks.tracks[0];
         self.writer.rows(out, &[Part { track, from, row, started, estimates: finished.estimates }])
@@ -189,18 +181,9 @@ impl<'p> Streaming<'p> {
     /// Adds rows to what is told of them, and drawn.
     fn add(&mut self, finished: &Finished) {
         let Finished { first, estimates: est, at } = *finished;
-        self.sums.rows += est.len();
-        est.log_likelihood.iter().for_each(|x| self.sums.log_likelihood += x);
-        self.sums.consistency.add(est);
-        if let Some(sums) = &mut self.sums.innovations {
-            sums.add(0, self.plan.beginnings[0].row + first, est);
-        }
-        self.sums.gated.add(0, self.plan.beginnings[0].row + first, est);
-        let truth = self.plan.truth_at(0, self.goal, est.time.iter().copied());
-        if let (Some(sums), Some(truth)) = (&mut self.sums.accuracy, &truth) {
-            sums.add(&est.mean, &est.cov, &truth.states);
-        }
-        if let Some((rows, times)) = &mut self.sums.thinned {
+        let from = self.plan.beginnings[0].row + first;
+        let truth = self.come.sums.add(self.plan, 0, from, self.goal, est);
+        if let Some((rows, times)) = &mut self.come.thinned {
             rows.add(est, truth.as_ref());
             for row in 0..at.len() {
                 let kept = times.push(at, row);
@@ -210,21 +193,13 @@ impl<'p> Streaming<'p> {
     }
 
     /// What the rows add up to.
-    pub fn summary(&mut self) -> Summary {
-        let Sums { rows, log_likelihood, consistency, ref accuracy, .. } = self.sums;
-        let accuracy = accuracy.as_ref().map(AccuracySums::accuracy);
-        let gated = core::mem::take(&mut self.sums.gated);
-        Summary { rows, log_likelihood, consistency: consistency.consistency(), gated, accuracy }
-    }
-
-    /// What a report says of its innovations, if one is made.
-    pub fn innovations(&self) -> Option<&InnovationSums> {
-        self.sums.innovations.as_ref()
+    pub fn sums(&self) -> &Sums {
+        &self.come.sums
     }
 
     /// What a figure of it shows.
     pub fn shown(&self) -> Option<Shown<'_>> {
-        let (rows, at) = self.sums.thinned.as_ref()?;
+        let (rows, at) = self.come.thinned.as_ref()?;
         let (goal, at) = (self.goal, self.at.map(|_| at));
         Some(Shown { goal, rows: &rows.kept, at, counts: rows.counts() })
     }
@@ -269,8 +244,8 @@ impl Sink for Desk<'_, '_> {
         }
         self.marks.push(mark);
         if self.done.is_ok() && kept.is_due() {
-            let (sums, marks) = (self.run.sums.clone(), self.marks.clone());
-            self.done = self.out.settle().and_then(|output| kept.replace(&Stand { output, sums, marks }));
+            let (come, marks) = (self.run.come.clone(), self.marks.clone());
+            self.done = self.out.settle().and_then(|output| kept.replace(&Stand { output, come, marks }));
         }
     }
 }

@@ -1,9 +1,9 @@
 //! A stream against a run, to the bit: with few and many rows at once, and from where it was broken off.
 
 use core::num::NonZeroUsize;
-use core::ops::ControlFlow;
+use core::ops::{ControlFlow, Range};
 use core::sync::atomic::{AtomicUsize, Ordering};
-use givens::{Data, Ended, Estimates, Finished, Goal, Mark, Outcome, Row, Sink, Stream};
+use givens::{Data, Ended, Estimates, Finished, Goal, Mark, Outcome, Row, Sink, Source, Stream, Stretch};
 
 /// All numbers of some estimates, array by array, as bits.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -45,6 +45,30 @@ pub fn data<'a>(rows: impl Iterator<Item = Row<'a>>, measures: usize, controls: 
     let mut data = Data::with_controls(measures, controls).starting_at(0.0);
     rows.for_each(|row| data.push_controlled(row.time, row.z, row.u).unwrap());
     data
+}
+
+/// Rows that are read from elsewhere: none but those asked for, and none from row `end` on.
+pub struct Apart<'d> {
+    pub of: &'d Data,
+    pub end: usize,
+}
+
+impl Source for Apart<'_> {
+    fn start(&self) -> f64 {
+        self.of.start()
+    }
+
+    fn len(&self) -> usize {
+        self.of.len()
+    }
+
+    fn read(&self, rows: Range<usize>) -> Option<Stretch<'_>> {
+        let mut data = Data::with_controls(self.of.measures(), self.of.controls());
+        for row in self.of.rows().take(rows.end).skip(rows.start) {
+            data.push_controlled(row.time, row.z, row.u).unwrap();
+        }
+        (rows.end <= self.end).then(|| Stretch::new(data, rows.start))
+    }
 }
 
 /// What was handed over, and for each mark what had been before it.
@@ -110,4 +134,14 @@ pub fn agrees(
             from_to_end(&kept[..=end], taken, 3 - threads.min(2));
         }
     }
+}
+
+/// A stream whose rows cannot be read from row `end` on hands over rows of the run, up to there at most.
+pub fn ends(whole: &Outcome, end: usize, stream: impl Fn(&mut dyn Sink) -> Ended) {
+    let mut taken = Taken::default();
+    let ended = stream(&mut taken);
+    assert!(ended.failure.is_none() && taken.count <= end, "{} rows of {end}", taken.count);
+    let mut rows = Bits::of(&whole.estimates);
+    rows.0.iter_mut().zip(&taken.rows.0).for_each(|(all, some)| all.truncate(some.len()));
+    assert!(taken.rows == rows, "other rows");
 }

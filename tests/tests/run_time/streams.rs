@@ -1,6 +1,6 @@
 //! A trajectory that is streamed has the numbers of one that is run, to the bit, however few rows are held at once.
 
-use super::streamed::{agrees, data};
+use super::streamed::{Apart, agrees, data, ends};
 use core::ops::ControlFlow;
 use givens::batch::Track;
 use givens::filter::{Fault, Gaussian, StepError};
@@ -22,7 +22,8 @@ proptest! {
         let problem = Problem::random(seed, n, d, 31, 0.05);
         let (model, sensor, prior) = (&problem.model, &problem.sensor, &problem.prior());
         let data = data(problem.rows(), d, 0);
-        let track = Track::new(model, sensor, &data, prior);
+        let apart = Apart { of: &data, end: data.len() };
+        let track = Track::new(model, sensor, &apart, prior);
         for (name, choice) in choices(n) {
             for goal in [Goal::Filter, Goal::Interval, Goal::Lag(0), Goal::Lag(4), Goal::Point(9.0)] {
                 let whole = choice.run(model, sensor, data.rows(), 0.0, prior, goal, &[]);
@@ -43,7 +44,8 @@ proptest! {
         at.sort_by(f64::total_cmp);
         at.dedup();
         at.insert(0, 0.0);
-        let track = Track { at: &at, ..Track::new(model, sensor, &data, prior) };
+        let apart = Apart { of: &data, end: data.len() };
+        let track = Track { at: &at, ..Track::new(model, sensor, &apart, prior) };
         for (name, choice) in continuous_choices(n) {
             for goal in [Goal::Filter, Goal::Interval] {
                 let whole = choice.run_continuous(model, sensor, data.rows(), 0.0, prior, goal, &at);
@@ -208,5 +210,22 @@ fn a_sink_that_has_enough_ends_the_run() {
             ControlFlow::Break(())
         });
         assert!(calls == 1 && ended.failure.is_none(), "{goal:?}");
+    }
+}
+
+#[test]
+fn rows_that_cannot_be_read_end_a_stream() {
+    let problem = Problem::random(7, 2, 1, 40, 0.05);
+    let (model, sensor, prior) = (&problem.model, &problem.sensor, &problem.prior());
+    let data = data(problem.rows(), 1, 0);
+    for (_, choice) in choices(2) {
+        for goal in [Goal::Filter, Goal::Interval, Goal::Lag(4), Goal::Point(3.0)] {
+            let whole = choice.run(model, sensor, data.rows(), 0.0, prior, goal, &[]);
+            for end in [0, 1, 9, 25, 39] {
+                let apart = Apart { of: &data, end };
+                let by = Stream { goal, hold: 8, ..Stream::default() };
+                ends(&whole, end, |sink| choice.stream(&Track::new(model, sensor, &apart, prior), &by, sink));
+            }
+        }
     }
 }

@@ -8,13 +8,13 @@ use crate::plan::{Plan, model};
 use crate::session::{Manner, Session};
 use crate::stdout;
 use core::num::NonZeroUsize;
-use givens::metrics::{Consistency, Verdict};
+use core::ops::ControlFlow;
+use givens::Goal;
+use givens::metrics::Verdict;
 use givens::registry::{Choice, Setting, find};
 use givens::scalar::Shown;
-use givens::{Estimates, Goal};
 use givens_io::Model;
 use std::io::{self, Write};
-use std::time::Instant;
 
 /// Runs every method over the data, with a truth as a smoother too, and lays their figures side by side.
 pub fn compare(args: &CompareArgs) -> Result<(), Stop> {
@@ -108,12 +108,13 @@ fn line(
     threads: Option<NonZeroUsize>,
 ) -> Result<(Vec<String>, Vec<String>), Stop> {
     let manner = Manner { at: None, threads, whole: false, judged: false };
-    let run = |goal: Goal| Session::run(plan, choice, &vec![goal; plan.tracks.tracks.len()], manner);
-    let begun = Instant::now();
+    let run = |goal: Goal| {
+        let goals = vec![goal; plan.tracks.tracks.len()];
+        Session::hand_over(plan, choice, &goals, manner, &mut |_, _, _| ControlFlow::Continue(()))
+    };
     let filtered = run(Goal::Filter)?;
-    let seconds = begun.elapsed().as_secs_f64();
-    let rows: usize = filtered.estimates().map(Estimates::len).sum();
-    let consistency = Consistency::of(filtered.estimates());
+    let (seconds, summary) = (filtered.took.as_secs_f64(), filtered.sums.summary());
+    let (rows, consistency) = (summary.rows, summary.consistency);
     let verdict = match consistency.verdict() {
         Verdict::Unknown => "unknown",
         Verdict::Consistent => "consistent",
@@ -125,18 +126,18 @@ fn line(
         if own_name { name.to_owned() } else { format!("{name} = {}", choice.name) },
         rows.to_string(),
         filtered.failures.len().to_string(),
-        format!("{:.4}", Shown(filtered.log_likelihood())),
+        format!("{:.4}", Shown(summary.log_likelihood)),
         digits(consistency.ratio),
         verdict.to_owned(),
         if rows == 0 { "-".to_owned() } else { format!("{:.2}", 1e6 * seconds / rows as f64) },
     ];
     if gated {
-        line.insert(3, filtered.gated().count().to_string());
+        line.insert(3, summary.gated.count().to_string());
     }
     let mut failures = filtered.failures.clone();
     if let Some(truth) = &plan.truth {
         let smoothed = run(Goal::Interval)?;
-        let (f, s) = (filtered.accuracy(plan), smoothed.accuracy(plan));
+        let (f, s) = (summary.accuracy, smoothed.sums.summary().accuracy);
         if filtered.failures.is_empty() {
             failures.extend(smoothed.failures);
         }

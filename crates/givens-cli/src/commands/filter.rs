@@ -8,13 +8,15 @@ use crate::instants::Instants;
 use crate::judgement;
 use crate::message::{Stop, say};
 use crate::plan::Plan;
-use crate::report::{self, Summary};
+use crate::report;
 use crate::session::{Manner, Session};
 use crate::streaming::{Stand, Streaming};
+use crate::sums::Sums;
+use core::ops::ControlFlow;
 use core::time::Duration;
 use givens::Goal;
-use givens::metrics::InnovationSums;
-use givens_io::{Format, Identity, Journal, Written, write_answers};
+use givens_io::{AnswerWriter, Format, Identity, Journal, Written, write_answers};
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// Estimates each state from the measurements up to it.
@@ -62,6 +64,9 @@ fn run(args: &FilterArgs, task: &str, goals: impl Fn(&Plan) -> Result<Vec<Goal>,
     let target = Target { output, format, resumable: resumable.map(|(every, path)| (every, path, identity)) };
     match goals[..] {
         [goal] => alone(&plan, goal, manner, target, pages),
+        _ if target.resumable.is_none() && !pages.drawn() && plan.tracks.in_turn() => {
+            in_turn(&plan, &goals, manner, &target)
+        }
         _ => together(&plan, &goals, manner, target, pages),
     }
 }
@@ -93,10 +98,10 @@ fn alone(plan: &Plan, goal: Goal, manner: Manner, target: Target, pages: Pages) 
     run.stop().map_or(Ok(()), Err)?;
     // what may be gone on with has its name last
     let sink = if kept.is_some() { Some(sink) } else { sink.finish().map(|()| None)? };
-    let (summary, failures) = (run.summary(), run.failure().map_or(&[][..], core::slice::from_ref));
-    pages.write(plan, &summary, run.innovations(), failures, run.shown().as_slice())?;
+    let failures = run.failure().map_or(&[][..], core::slice::from_ref);
+    pages.write(plan, run.sums(), failures, run.shown().as_slice())?;
     sink.map_or(Ok(()), Sink::finish)?;
-    ended(plan, &summary, failures, kept)
+    ended(plan, run.sums(), failures, kept)
 }
 
 /// Tracks side by side, written when all are done.
@@ -110,23 +115,52 @@ fn together(plan: &Plan, goals: &[Goal], manner: Manner, target: Target, pages: 
         say(GOES_ON);
     }
     let sink = Sink::open(target.output)?;
-    let session = Session::resume(plan, &plan.choice, goals, manner, done, kept.as_mut())?;
+    let session = Session::hold(plan, &plan.choice, goals, manner, done, kept.as_mut())?;
     let (model, format, gated) = (&plan.model, target.format, plan.choice.gate.is_some());
     sink.write(|out| match manner.at {
         Some(at) => write_answers(out, format, model, &at.tracks(plan), &session.at, gated, manner.threads),
         None => write_answers(out, format, model, &plan.tracks, &session.answers, gated, manner.threads),
     })?;
-    let summary = session.summary(plan);
-    pages.write(plan, &summary, session.innovations.as_ref(), &session.failures, &session.shown())?;
-    ended(plan, &summary, &session.failures, kept)
+    pages.write(plan, &session.sums, &session.failures, &session.shown())?;
+    ended(plan, &session.sums, &session.failures, kept)
+}
+
+/// Tracks that stand one behind the other in the table, written some at a time: memory does not grow with their rows.
+fn in_turn(plan: &Plan, goals: &[Goal], manner: Manner, target: &Target) -> Result<(), Stop> {
+    let (format, gated, threads) = (target.format, plan.choice.gate.is_some(), manner.threads);
+    let smoothed = goals.iter().any(|goal| *goal != Goal::Filter);
+    let times = manner.at.map(|at| at.tracks(plan));
+    let tracks = times.as_ref().unwrap_or(&plan.tracks);
+    let writer = AnswerWriter { format, model: &plan.model, tracks, smoothed, gated, threads };
+    let mut sink = Sink::open(target.output)?;
+    let mut session = None;
+    sink.fill(|out| {
+        let mut done = writer.header(out);
+        session = Some(Session::hand_over(plan, &plan.choice, goals, manner, &mut |range, answers, at| {
+            let answers = if times.is_some() { at } else { answers };
+            let parts = tracks.tracks[range].iter().zip(answers).map(|(track, answer)| answer.part(track));
+            if done.is_ok() {
+                done = writer.rows(out, &parts.collect::<Vec<_>>());
+            }
+            // if nobody reads any more the run goes on, for what is told of it
+            match &done {
+                Err(error) if error.kind() != ErrorKind::BrokenPipe => ControlFlow::Break(()),
+                _ => ControlFlow::Continue(()),
+            }
+        }));
+        done.and_then(|()| out.flush())
+    })?;
+    let Some(session) = session.transpose()? else { return Ok(()) };
+    sink.finish()?;
+    ended(plan, &session.sums, &session.failures, None)
 }
 
 const GOES_ON: &str = "goes on from the checkpoint of a run that was broken off";
 
 /// The last words, when all is written.
-fn ended(plan: &Plan, summary: &Summary, failures: &[String], kept: Option<Checkpoint>) -> Result<(), Stop> {
+fn ended(plan: &Plan, sums: &Sums, failures: &[String], kept: Option<Checkpoint>) -> Result<(), Stop> {
     kept.into_iter().for_each(Checkpoint::remove);
-    report::closing(plan, summary);
+    report::closing(plan, &sums.summary());
     if failures.is_empty() { Ok(()) } else { Err(Stop::failures(failures)) }
 }
 
@@ -143,21 +177,14 @@ impl Pages<'_> {
     }
 
     /// Draws and writes all.
-    fn write(
-        self,
-        plan: &Plan,
-        summary: &Summary,
-        innovations: Option<&InnovationSums>,
-        failures: &[String],
-        shown: &[Shown],
-    ) -> Result<(), Stop> {
+    fn write(self, plan: &Plan, sums: &Sums, failures: &[String], shown: &[Shown]) -> Result<(), Stop> {
         for (path, canvas) in self.canvases {
             let picture = figure::draw(path, plan, shown)?;
             canvas.write(|out| out.write_all(&picture))?;
         }
-        match self.report.zip(innovations) {
+        match self.report.zip(sums.innovations.as_ref()) {
             Some((report, innovations)) => {
-                let page = judgement::page(plan, summary, innovations, failures, shown)?;
+                let page = judgement::page(plan, &sums.summary(), innovations, failures, shown)?;
                 report.write(|out| out.write_all(page.as_bytes()))
             }
             None => Ok(()),

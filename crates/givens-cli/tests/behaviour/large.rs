@@ -110,3 +110,55 @@ fn a_smoother_in_segments_has_the_numbers_of_one_that_holds_all_rows() {
     assert!(found.stderr.contains(&told), "{}", found.stderr);
     alike(&folder, "smooth chain.toml", "csv");
 }
+
+/// More rows than are held in memory: the others lie in a temporary file.
+const LONG: usize = 530_000;
+
+#[test]
+fn rows_on_the_disk_have_the_numbers_of_rows_in_memory() {
+    let folder = folder("long");
+    folder.run(&format!("simulate walk.toml --steps {LONG} --seed 1 -o data.csv")).good();
+    let table = folder.read("data.csv");
+    let short: Vec<&str> = table.lines().take(200_001).collect();
+    folder.write("short.csv", &(short.join("\n") + "\n"));
+    for (command, last) in [("filter", 0), ("smooth --lag 2", 2)] {
+        let long = folder.run(&format!("{command} walk.toml data.csv --report page.html -o long.csv")).good();
+        assert!(long.stderr.contains(&format!("{LONG} rows, ")), "{}", long.stderr);
+        folder.run(&format!("{command} walk.toml short.csv -o short-out.csv")).good();
+        let (long, short) = (folder.read("long.csv"), folder.read("short-out.csv"));
+        assert_eq!(long.lines().count(), LONG + 1);
+        let rows = long.lines().zip(short.lines()).take(200_001 - last).enumerate();
+        rows.for_each(|(k, (long, short))| assert_eq!(long, short, "{command}, line {k}"));
+        assert!(folder.read("page.html").contains("The usual gap between measured rows is"));
+        // what comes from a pipe has a place on the disk too
+        if command == "filter" {
+            folder.run_with("filter walk.toml - -o piped.csv", &table).good();
+            assert!(folder.read("piped.csv") == long, "from a pipe");
+        }
+    }
+    let mut named = String::from("track_id,") + table.lines().next().unwrap() + "\n";
+    table.lines().skip(1).for_each(|row| writeln!(named, "one,{row}").unwrap());
+    writeln!(named, "two,{}", table.lines().nth(1).unwrap()).unwrap();
+    folder.write("one.csv", &table).write("two.csv", &named);
+    alike(&folder, "smooth walk.toml", "csv");
+}
+
+#[test]
+fn what_is_wrong_far_down_is_told_before_anything_is_written() {
+    let folder = folder("far-down");
+    let mut table = String::from("time,z\n");
+    (0..LONG).for_each(|k| writeln!(table, "{k},0").unwrap());
+    let wrong = format!("{},0\n{},none\n", LONG - 5, LONG);
+    folder.write("data.csv", &(table.clone() + &wrong));
+    let told = folder.run("filter walk.toml data.csv -o out.csv");
+    assert_eq!(told.code, 2);
+    let (first, second) = (format!("data.csv:{}:1: ", LONG + 2), format!("data.csv:{}:", LONG + 3));
+    assert!(told.stderr.contains(&first) && told.stderr.contains(&second), "{}", told.stderr);
+    assert!(!folder.path("out.csv").exists());
+    folder.write("data.csv", &table);
+    let mut command = folder.command(&["filter", "walk.toml", "data.csv", "-o", "out.csv"]);
+    let told = command.env("TMPDIR", folder.path("nowhere")).output().unwrap();
+    let told = String::from_utf8(told.stderr).unwrap();
+    assert!(told.contains("the rows of a long table lie in the folder for temporary files"), "{told}");
+    assert!(told.contains("TMPDIR"), "{told}");
+}

@@ -43,6 +43,15 @@ pub struct Answer {
     pub from_first: bool,
 }
 
+impl Answer {
+    /// The lines that it has.
+    #[must_use]
+    pub fn part<'a>(&'a self, track: &'a Track) -> Part<'a> {
+        let Self { ref estimates, row, started, from_first } = *self;
+        Part { track, from: if from_first { row } else { 0 }, row, started, estimates }
+    }
+}
+
 /// A row of output: a row of the table, and the estimate of it if there is one.
 struct Line<'a> {
     track: Option<&'a str>,
@@ -159,11 +168,7 @@ pub fn write_answers(
     threads: Option<NonZeroUsize>,
 ) -> io::Result<()> {
     let smoothed = answers.iter().any(|answer| answer.estimates.is_smoothed());
-    let parts = tracks.tracks.iter().zip(answers).map(|(track, answer)| {
-        let Answer { estimates, row, started, from_first } = answer;
-        let from = if *from_first { *row } else { 0 };
-        Part { track, from, row: *row, started: *started, estimates }
-    });
+    let parts = tracks.tracks.iter().zip(answers).map(|(track, answer)| answer.part(track));
     let writer = AnswerWriter { format, model, tracks, smoothed, gated, threads };
     writer.header(out)?;
     writer.rows(out, &parts.collect::<Vec<_>>())?;

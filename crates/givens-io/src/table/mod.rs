@@ -77,6 +77,20 @@ pub struct Row {
     pub u: Vec<f64>,
 }
 
+impl Tracks {
+    /// Whether the rows of each track stand together in the table.
+    #[must_use]
+    pub fn in_turn(&self) -> bool {
+        let mut next = 0;
+        self.tracks.iter().all(|track| {
+            let index = |row: Option<&Row>| row.map(|row| row.index);
+            let begins = index(track.rows.first()) == Some(next);
+            next += track.rows.len();
+            begins && index(track.rows.last()) == next.checked_sub(1)
+        })
+    }
+}
+
 impl Row {
     /// Whether the row brings a measure; one without any asks for the prediction at its time.
     pub fn measured(&self) -> bool {

@@ -27,9 +27,11 @@ pub struct Args {
 pub enum Command {
     /// Estimate each state from the measurements up to it
     #[command(after_help = "\
-Memory: the table, some 200 bytes a row. A single track is written as it is
-finished; tracks side by side are held whole, 8 (4 + 2n + 3n² + d + d²) bytes
-a row of n states and d measures.
+Memory: some 500,000 rows of the table, 200 bytes each; those beyond lie in a
+temporary file (TMPDIR), some 50 bytes each. A track is written as it is
+finished, of several those that stand one behind the other in the table. Tracks
+whose rows are mixed, and several with a figure, a report or --resume, are held
+whole: 8 (4 + 2n + 3n² + d + d²) bytes a row of n states and d measures.
 
 Examples:
   givens filter turn.toml radar.csv -o track.csv --plot track.svg
@@ -40,8 +42,8 @@ Examples:
     Filter(FilterArgs),
     /// Estimate each state from all measurements, before and after it
     #[command(after_help = "\
-Memory: the table, some 200 bytes a row, and 8 (4 + 5n + 7n² + d + d²) bytes a
-row of n states and d measures. A single track that needs more than 128 MB of
+Memory: as `filter`, and 8 (4 + 5n + 7n² + d + d²) bytes a row of n states and d
+measures for the tracks at work. A single track that needs more than 128 MB of
 these is smoothed in segments, three times over its rows, with the same numbers.
 
 Examples:

@@ -10,6 +10,7 @@ mod paths;
 mod references;
 mod registry;
 mod unfinished;
+mod unsafe_code;
 
 use crate::finding::Finding;
 use crate::say;
@@ -27,6 +28,7 @@ const CHECKS: &[(&str, Check)] = &[
     ("square-root files form no covariance", factors::check),
     ("nothing unfinished", unfinished::check),
     ("files and printing", files::check),
+    ("unsafe", unsafe_code::check),
     ("citations", citations::check),
     ("registry and README", registry::check),
 ];

@@ -143,6 +143,7 @@ macro_rules! dispatch {
     ($float:ident, $array:ty, $avx2:ident, $avx512:ident, $neon:ident) => {
         #[allow(unsafe_code)]
         impl Dispatch for $float {
+            // Safety: what the trait asks for.
             #[inline(always)]
             unsafe fn dispatch<J: Job<$float>>(set: InstructionSet, job: J) -> J::Output {
                 // SAFETY: the caller promises what this one asks for.
@@ -152,6 +153,7 @@ macro_rules! dispatch {
                 }
             }
 
+            // Safety: what the trait asks for.
             #[inline(always)]
             unsafe fn dispatch_registers<J: Job<$float>>(
                 set: InstructionSet,

@@ -2,7 +2,7 @@
 
 use crate::{model_file, promise};
 use givens::Goal;
-use givens_io::{Answer, Format, Model, Tracks, parse_tracks, write_answers};
+use givens_io::{Answer, Format, Model, Tracks, Truth, parse_tracks, parse_truth, write_answers};
 use std::num::NonZeroUsize;
 use std::sync::OnceLock;
 
@@ -72,6 +72,15 @@ pub(crate) fn body(data: &[u8]) {
     }
 }
 
+/// A truth has finite times of tracks that are there, and a column for each state that it names.
+fn known(model: &Model, tracks: &Tracks, truth: &Truth) {
+    let rows = truth.times.len();
+    assert!(rows > 0 && truth.times.iter().all(|t| t.is_finite()));
+    assert!(truth.tracks.len() == rows && truth.tracks.iter().all(|&track| track < tracks.tracks.len()));
+    assert!(truth.states.len() == model.states.len());
+    assert!(truth.states.iter().flatten().all(|column| column.len() == rows));
+}
+
 fn follow(model: &Model, tracks: &Tracks, text: &str) {
     let mut answers = Vec::new();
     assert!(!tracks.tracks.is_empty());
@@ -101,6 +110,12 @@ fn follow(model: &Model, tracks: &Tracks, text: &str) {
         write_answers(&mut out, format, model, tracks, &answers, false, NonZeroUsize::new(1))
             .expect("there is memory");
         let out = String::from_utf8(out).expect("it is UTF-8");
+        for text in [text, &out] {
+            match parse_truth(text, "t.csv", model, tracks) {
+                Err(errors) => promise::well_placed(text, &errors),
+                Ok(truth) => known(model, tracks, &truth),
+            }
+        }
         if format == Format::Jsonl {
             for line in out.lines() {
                 serde_json::from_str::<serde_json::Value>(line).expect("it is JSON");

@@ -24,5 +24,5 @@ pub use output::{
 };
 pub use page::{Page, Tone};
 pub use table::{
-    Calendar, Row, Rows, Track, Tracks, Truth, parse_tracks, read_times, read_tracks, read_truth,
+    Calendar, Row, Rows, Track, Tracks, Truth, parse_tracks, parse_truth, read_times, read_tracks, read_truth,
 };

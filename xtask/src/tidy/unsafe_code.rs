@@ -33,7 +33,7 @@ pub fn check(tree: &Tree) -> Vec<Finding> {
             TOLD,
             1,
             "it tells another number of `unsafe`",
-            &format!("write: {sentence}"),
+            format!("write: {sentence}"),
         ));
     }
     findings

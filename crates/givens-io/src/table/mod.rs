@@ -16,7 +16,7 @@ mod truth;
 
 pub use rows::Rows;
 pub use time::Calendar;
-pub use truth::{Truth, read_truth};
+pub use truth::{Truth, parse_truth, read_truth};
 
 use std::fs::File;
 use std::io::{self, Read};

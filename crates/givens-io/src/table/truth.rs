@@ -37,8 +37,19 @@ pub struct Truth {
 /// # Errors
 /// Everything that is wrong with the table, by line, column and name.
 pub fn read_truth(path: &str, model: &Model, tracks: &Tracks) -> Result<Truth, InputErrors> {
-    let source = Source::read(path)?;
-    let findings = Findings::new(&source);
+    read(&Source::read(path)?, model, tracks)
+}
+
+/// [`read_truth`] from a text; errors call it `name`.
+///
+/// # Errors
+/// As [`read_truth`].
+pub fn parse_truth(text: &str, name: &str, model: &Model, tracks: &Tracks) -> Result<Truth, InputErrors> {
+    read(&Source::new(name, text.to_owned()), model, tracks)
+}
+
+fn read(source: &Source, model: &Model, tracks: &Tracks) -> Result<Truth, InputErrors> {
+    let findings = Findings::new(source);
     let truth = truth(&findings, model, tracks);
     findings.finish(truth)
 }

@@ -45,7 +45,8 @@ fn absorb<T: Real>(a: &mut [T], d: usize, n: usize, q: usize, scratch: &mut [T],
     }
     // what overflows is not nothing
     let bound = T::of(size as f64 * T::EPSILON);
-    let nothing = sum.le(bound * bound * (settled + sum)) & sum.finite();
+    let little = (bound * bound).mul_add(settled + sum, T::of(T::SMALLEST));
+    let nothing = sum.lt(little) & sum.finite();
     if nothing.all() {
         drop_row(a, d, n, q);
         return;

@@ -10,9 +10,10 @@ outlined! {
     ///
     /// `a` holds `rows` × `columns` in rows of length `stride` ≥ max(rows, columns); S ends in its first `rows`
     /// columns, zeros behind it. What is left of a row after the earlier reflections and is at most
-    /// `columns` ε of the row counts as zero: that column of S is zero and uses up no reflection, so that the factor
-    /// of a deficient A can be divided by. A pack whose lanes disagree on that reports those with the zero as sick; so are
-    /// lanes with a row whose squares overflow.
+    /// `columns` ε of the row counts as zero, and so does what has no square of all digits (below 1.5e-154 in `f64`, 1.1e-19
+    /// in `f32`): that column of S is zero and uses up no reflection, so that the factor of a deficient A can be divided by.
+    /// A pack whose lanes disagree on that reports those with the zero as sick; so are lanes with a row whose squares
+    /// overflow.
     ///
     /// ```
     /// use givens_core::kernels::tria;
@@ -64,7 +65,8 @@ fn reflect<T: Real>(
     let rest = sum_of_squares(&row[used.min(columns)..columns]);
     let bound = T::of(columns as f64 * T::EPSILON);
     // what overflows is not nothing
-    let nothing = rest.le(bound * bound * (settled + rest)) & rest.finite();
+    let little = (bound * bound).mul_add(settled + rest, T::of(T::SMALLEST));
+    let nothing = rest.lt(little) & rest.finite();
     if used >= columns || nothing.all() {
         row[used..].fill(T::zero());
         return false;

@@ -100,8 +100,8 @@ fn panel<P: Pack<Element = f64>, const H: usize>(
             squares[q] += x * x;
         }
         let rest = panel.along[q];
-        let little = bound * bound * (squares[q] + rest);
-        first + q >= columns || !(rest > little && rest.is_finite())
+        let little = bound * bound * (squares[q] + rest) + f64::SMALLEST;
+        first + q >= columns || !(rest >= little && rest.is_finite())
     };
     let mut done = 0;
     macro_rules! reflect {

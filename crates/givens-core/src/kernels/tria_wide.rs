@@ -82,8 +82,8 @@ impl Matrix<'_> {
             let (above, below) = a.split_at_mut((i + 1) * stride);
             let row = &mut above[i * stride..];
             let rest = along[i];
-            let little = bound * bound * (plus_dot(0.0, &row[..i], &row[..i]) + rest);
-            if !(rest > little && rest.is_finite()) {
+            let little = bound * bound * (plus_dot(0.0, &row[..i], &row[..i]) + rest) + f64::SMALLEST;
+            if !(rest >= little && rest.is_finite()) {
                 break;
             }
             let norm = rest.sqrt();

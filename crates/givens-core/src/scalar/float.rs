@@ -19,6 +19,7 @@ macro_rules! float {
         impl Real for $float {
             type Mask = bool;
             const EPSILON: f64 = $float::EPSILON as f64;
+            const SMALLEST: f64 = $float::MIN_POSITIVE as f64;
 
             #[inline(always)]
             fn vectorised<W: Inside>(kernel: W) -> W::Output {

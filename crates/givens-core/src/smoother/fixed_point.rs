@@ -3,7 +3,7 @@
 use super::back::symmetrise;
 use super::history::{OTHER_FORM, UNFOLLOWED, for_smoothing};
 use crate::filter::backward::{multiply, multiply_lower};
-use crate::filter::lanes::lanes;
+use crate::filter::lanes::{endless, lanes};
 use crate::filter::memory::{put_columns, take, vectors_and_matrices};
 use crate::filter::{Fault, Filter, Form, Grow, Learnt, Matrix, Over, StepError};
 use crate::kernels::{add_outer, cholesky_scaled, copy_lower, square, tria};
@@ -158,7 +158,7 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> FixedPoint<T, B> {
     ///
     /// # Errors
     /// A filter of another length or form than the one that this was begun with; a smoothed covariance that is not positive
-    /// semidefinite, in covariance form.
+    /// semidefinite, in covariance form; an estimate that is not finite.
     pub fn update<X: Over<M>, M, C: Grow<T>>(
         &mut self,
         filter: &Filter<'_, X, M, T, C>,
@@ -181,7 +181,8 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> FixedPoint<T, B> {
             copy_lower(parts.product, n, parts.wide, 2 * n);
             multiply_lower(parts.factor, n, parts.anchor, parts.product);
             square(parts.cov, n, parts.factor, n, n);
-            return Ok(());
+            let done = endless(parts.mean, parts.factor, n);
+            return done.map(|_| ()).map_err(|fault| filter.fail(fault));
         }
         let change = &mut parts.product[..n];
         for (to, (&x, &y)) in change.iter_mut().zip(filter.mean().iter().zip(&*parts.anchor_mean)) {
@@ -210,6 +211,7 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> FixedPoint<T, B> {
         // a second update at this time starts from here
         parts.anchor_mean.copy_from_slice(filter.mean());
         filter.write_cov(parts.anchor);
+        let done = done.and_then(|_| endless(parts.mean, parts.factor, n));
         done.map(|_| ()).map_err(|fault| filter.fail(fault))
     }
 

@@ -4,8 +4,8 @@ use super::back::{Passage, mean_back, step_back};
 use super::history::History;
 use super::rotated::{Coordinates, Rotated};
 use super::way_back::{Answer, present};
-use crate::filter::{Filter, Form, Grow, Over, StepError};
-use crate::kernels::dot;
+use crate::filter::{Fault, Filter, Form, Grow, Over, Quantity, StepError};
+use crate::kernels::{dot, wild_row};
 use crate::scalar::Real;
 
 impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
@@ -16,7 +16,7 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
     ///
     /// # Errors
     /// In covariance form, a covariance of a state given the next one that is not positive semidefinite; the time is the
-    /// filter's. A filter that does not go with this history.
+    /// filter's. A state that is not finite. A filter that does not go with this history.
     pub fn sample<X: Over<M>, M, C: Grow<T>, A: Answer>(
         &mut self,
         filter: &Filter<'_, X, M, T, C>,
@@ -47,10 +47,12 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
             } else {
                 own.copy_from_slice(x);
             }
+            drawn(x).map_err(|fault| filter.fail(fault))?;
             if !visit(0, draw, x).goes_on() {
                 return Ok(());
             }
         }
+        let failed = |age: usize, fault| StepError { fault, time: filter.time(), step: newest - age };
         for age in 1..=steps.min(count) {
             if X::Form::SQUARE_ROOT {
                 let record = Rotated::of(record(age), n);
@@ -61,6 +63,7 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
                     coordinates.mean_back(&record, scratch);
                     add_lower(coordinates.mean, record.conditional, x);
                     coordinates.write_mean(&record, x);
+                    drawn(x).map_err(|fault| failed(age, fault))?;
                     if !visit(age, draw, x).goes_on() {
                         return Ok(());
                     }
@@ -71,22 +74,27 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
             let passage = Passage::of(record(age), before, n);
             // the next state is known exactly
             belief.cov.fill(T::zero());
-            step_back(&passage, &mut belief, rest).map_err(|fault| StepError {
-                fault,
-                time: filter.time(),
-                step: newest - age,
-            })?;
+            step_back(&passage, &mut belief, rest).map_err(|fault| failed(age, fault))?;
             for (draw, own) in draws.chunks_exact_mut(n).enumerate() {
                 let (noise, scratch) = rest.split_at_mut(n);
                 chance(draw, noise);
                 mean_back(&passage, own, scratch);
                 add_lower(own, belief.factor, noise);
+                drawn(own).map_err(|fault| failed(age, fault))?;
                 if !visit(age, draw, own).goes_on() {
                     return Ok(());
                 }
             }
         }
         Ok(())
+    }
+}
+
+/// A drawn state must be finite.
+fn drawn<T: Real>(x: &[T]) -> Result<(), Fault> {
+    match wild_row(x, 1) {
+        Some(component) => Err(Fault::NotFinite { quantity: Quantity::Estimate, component }),
+        None => Ok(()),
     }
 }
 

@@ -3,6 +3,7 @@
 use super::back::{Passage, mean_back, step_back};
 use super::history::History;
 use super::rotated::{Coordinates, Rotated, rotate_back};
+use crate::filter::lanes::endless;
 use crate::filter::memory::take;
 use crate::filter::{Belief, Filter, Form, Grow, Over, Prior, StepError};
 use crate::kernels::{solve_lower, solve_lower_rows};
@@ -33,7 +34,8 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
     /// is forgotten: a fixed-lag smoother calls this at every step. A `visit` that answers `ControlFlow::Break` ends the way.
     ///
     /// # Errors
-    /// A smoothed covariance that is not positive semidefinite, in covariance form; the time is the filter's.
+    /// A smoothed covariance that is not positive semidefinite, in covariance form; a smoothed estimate that is not finite;
+    /// the time is the filter's.
     #[inline(always)]
     pub fn smooth<X: Over<M>, M, C: Grow<T>, A: Answer>(
         &mut self,
@@ -157,6 +159,7 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
             let len = Self::record_len(n);
             &records[(newest - age) % capacity * len..][..len]
         };
+        let failed = |age: usize, fault| StepError { fault, time, step: newest - age };
         if square_root {
             let mut coordinates = Coordinates::start(n, &[], &[], &mut rest);
             let mut smoothed = Smoothed { belief, shift: coordinates.mean, root: coordinates.root };
@@ -172,6 +175,8 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
                 coordinates = Coordinates { mean: smoothed.shift, root: smoothed.root };
                 rotate_back(&mut coordinates, &record, &mut smoothed.belief, rest);
                 (smoothed.shift, smoothed.root) = (coordinates.mean, coordinates.root);
+                endless(smoothed.belief.mean, smoothed.belief.factor, n)
+                    .map_err(|fault| failed(age, fault))?;
                 if !visit(age, &smoothed).goes_on() {
                     return Ok(());
                 }
@@ -185,11 +190,9 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> History<T, B> {
         for age in 1..=steps.min(held) {
             let before = if age < held { &record(age + 1)[2 * n + n * n..][..n * n] } else { &[] };
             let passage = Passage::of(record(age), before, n);
-            step_back(&passage, &mut smoothed.belief, rest).map_err(|fault| StepError {
-                fault,
-                time,
-                step: newest - age,
-            })?;
+            step_back(&passage, &mut smoothed.belief, rest)
+                .and_then(|_| endless(smoothed.belief.mean, smoothed.belief.factor, n))
+                .map_err(|fault| failed(age, fault))?;
             if !visit(age, &smoothed).goes_on() {
                 return Ok(());
             }

@@ -78,10 +78,14 @@ pub(super) fn draw<'a, H: Observation>(
         for (i, (z, asked)) in z.iter_mut().zip(row.z).enumerate() {
             if asked.is_nan() {
                 *z = f64::NAN;
-            } else if !z.is_finite() {
-                return Err(fail(Fault::NotFinite { quantity: Quantity::Observation, component: i }));
-            } else if let Some(period) = sensors.angle(i) {
+                continue;
+            }
+            if let Some(period) = sensors.angle(i) {
                 *z = givens_core::scalar::Real::wrap(*z, period);
+            }
+            // an angle of more periods than there are numbers has none within one
+            if !z.is_finite() {
+                return Err(fail(Fault::NotFinite { quantity: Quantity::Observation, component: i }));
             }
         }
         out.time.push(t);

@@ -7,7 +7,7 @@ use super::{Given, Stopped};
 use crate::filter::backward::Backward;
 use crate::filter::error::{Fault, Halt, Matrix};
 use crate::filter::form::{Belief, Form};
-use crate::filter::lanes::lanes;
+use crate::filter::lanes::{endless, lanes};
 use crate::filter::memory::{put_columns, take};
 use crate::filter::quantity::Quantity;
 use crate::filter::sizes::{ENDLESS, Sizes, fits};
@@ -105,6 +105,7 @@ pub(super) fn integrate<T: Real, C: Carrier, F: Form, M, R>(
         integrator.advance(&carrier, &given.at, given.table, y, work, scratch).map_err(stopped)?;
         carrier.factor(y, next)?;
     }
+    sick = sick | endless(&y[..n], next, n)?;
     belief.mean.copy_from_slice(&y[..n]);
     if !F::SQUARE_ROOT {
         carrier.covariance(y, next, belief.cov);

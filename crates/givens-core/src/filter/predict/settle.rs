@@ -4,7 +4,7 @@ use super::gain::{gain_of_covariance, rotation, rotation_scratch};
 use crate::filter::backward::Backward;
 use crate::filter::error::{Fault, Matrix};
 use crate::filter::form::{Belief, Form};
-use crate::filter::lanes::lanes;
+use crate::filter::lanes::{endless, lanes};
 use crate::filter::memory::take;
 use crate::kernels::{add_outer, cholesky_scaled, copy_lower, downdate, square, tria};
 use crate::scalar::{Mask, Real};
@@ -47,6 +47,7 @@ pub(super) fn settle<T: Real, F: Form>(
         if let Some(back) = back {
             let next = take(&mut scratch, n * n);
             sick = sick | rotation(dev, [columns, stride], minus, lost, next, back, scratch)?;
+            sick = sick | endless(mean, next, n)?;
             belief.factor.copy_from_slice(next);
         } else {
             sick = sick | lanes(tria(dev, n, columns, stride), Matrix::Predicted)?;
@@ -56,6 +57,7 @@ pub(super) fn settle<T: Real, F: Form>(
                 }
                 sick = sick | lanes(downdate(dev, n, stride, scale), Matrix::Predicted)?;
             }
+            sick = sick | endless(mean, dev, stride)?;
             copy_lower(belief.factor, n, dev, stride);
         }
     } else {

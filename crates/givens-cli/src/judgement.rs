@@ -5,9 +5,7 @@ use crate::gaps;
 use crate::message::{Stop, count, digits};
 use crate::plan::Plan;
 use crate::report::Summary;
-use givens::metrics::{
-    Consistency, InnovationSums, MeasureVerdict, Outlier, Verdict, chi_squared_cdf, chi_squared_quantile,
-};
+use givens::metrics::{Consistency, InnovationSums, MeasureVerdict, Outlier, Verdict, chi_squared_cdf};
 use givens::scalar::Shown;
 use givens_io::{Page, Tone, Track};
 use std::path::Path;
@@ -51,8 +49,7 @@ pub fn page(
     }
     let [measured, ..] = innovations.rows();
     page.heading("Are the errors as large as the filter says?");
-    let taken = measured - summary.gated.count().min(measured);
-    let (tone, words) = size(&summary.consistency, usual(plan.choice.gate, &summary.consistency, taken));
+    let (tone, words) = size(&summary.consistency);
     page.say(tone, &words);
     if measured > 0 {
         if measured < FEW {
@@ -71,25 +68,15 @@ pub fn page(
     Ok(page.finish())
 }
 
-/// The mean NIS per degree of freedom of a right model: less than one where a gate keeps the largest out.
-fn usual(gate: Option<f64>, consistency: &Consistency, taken: usize) -> f64 {
-    let dof = consistency.dof as f64 / taken.max(1) as f64;
-    match gate {
-        Some(p) if dof > 0.0 => chi_squared_cdf(dof + 2.0, chi_squared_quantile(dof, p)) / p,
-        _ => 1.0,
-    }
-}
-
-/// The mean NIS in words, where that of a right model is `usual`.
-fn size(consistency: &Consistency, usual: f64) -> (Tone, String) {
-    let Consistency { ratio, band: (low, high), dof } = *consistency;
-    let band = (usual * low, usual * high);
+/// The mean NIS in words.
+fn size(consistency: &Consistency) -> (Tone, String) {
+    let Consistency { ratio, band, .. } = *consistency;
     let of = format!(
         "mean NIS is {ratio:.3} per degree of freedom, of a right model {:.3} to {:.3} (95 %)",
         band.0, band.1
     );
     let each = "below stands what each measure says of it";
-    match (Consistency { ratio, band, dof }).verdict() {
+    match consistency.verdict() {
         Verdict::Unknown => (Tone::Look, "Nothing was measured: there is nothing to judge by.".to_owned()),
         Verdict::Consistent => (Tone::Good, format!("Yes: {of}.")),
         Verdict::Overconfident => {

@@ -2,7 +2,9 @@
 
 use crate::plan::Plan;
 use crate::report::{Gated, Summary};
-use givens::metrics::{AccuracySums, ConsistencySums, InnovationSums, Truth};
+use givens::metrics::{
+    AccuracySums, ConsistencySums, InnovationSums, Truth, chi_squared_cdf, chi_squared_quantile,
+};
 use givens::{Estimates, Goal};
 use serde::{Deserialize, Serialize};
 
@@ -16,6 +18,8 @@ pub struct Sums {
     /// For a report, if one is made.
     pub innovations: Option<InnovationSums>,
     gated: Gated,
+    /// Rows with a measure that was taken in.
+    taken: usize,
 }
 
 impl Sums {
@@ -32,6 +36,7 @@ impl Sums {
         self.rows += est.len();
         est.log_likelihood.iter().for_each(|x| self.log_likelihood += x);
         self.consistency.add(est);
+        self.taken += est.nis_dof.iter().zip(&est.gated).filter(|(dof, gated)| **dof > 0 && !**gated).count();
         if let Some(sums) = &mut self.innovations {
             sums.add(i, from, est);
         }
@@ -43,14 +48,26 @@ impl Sums {
         truth
     }
 
-    /// All of it.
-    pub fn summary(&self) -> Summary {
+    /// All of it, by a method with this gate.
+    pub fn summary(&self, gate: Option<f64>) -> Summary {
+        let mut consistency = self.consistency.consistency();
+        let usual = usual(gate, consistency.dof as f64 / self.taken.max(1) as f64);
+        consistency.band = (usual * consistency.band.0, usual * consistency.band.1);
         Summary {
             rows: self.rows,
             log_likelihood: self.log_likelihood,
-            consistency: self.consistency.consistency(),
+            consistency,
             gated: self.gated.clone(),
             accuracy: self.accuracy.as_ref().map(AccuracySums::accuracy),
         }
+    }
+}
+
+/// The mean NIS per degree of freedom of a right model, of rows with so many degrees: less than one where a gate keeps the largest
+/// out.
+fn usual(gate: Option<f64>, dof: f64) -> f64 {
+    match gate {
+        Some(p) if dof > 0.0 => chi_squared_cdf(dof + 2.0, chi_squared_quantile(dof, p)) / p,
+        _ => 1.0,
     }
 }

@@ -113,7 +113,7 @@ fn line(
         Session::hand_over(plan, choice, &goals, manner, &mut |_, _, _| ControlFlow::Continue(()))
     };
     let filtered = run(Goal::Filter)?;
-    let (seconds, summary) = (filtered.took.as_secs_f64(), filtered.sums.summary());
+    let (seconds, summary) = (filtered.took.as_secs_f64(), filtered.sums.summary(choice.gate));
     let (rows, consistency) = (summary.rows, summary.consistency);
     let verdict = match consistency.verdict() {
         Verdict::Unknown => "unknown",
@@ -137,7 +137,7 @@ fn line(
     let mut failures = filtered.failures.clone();
     if let Some(truth) = &plan.truth {
         let smoothed = run(Goal::Interval)?;
-        let (f, s) = (summary.accuracy, smoothed.sums.summary().accuracy);
+        let (f, s) = (summary.accuracy, smoothed.sums.summary(choice.gate).accuracy);
         if filtered.failures.is_empty() {
             failures.extend(smoothed.failures);
         }

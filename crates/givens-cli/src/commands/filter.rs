@@ -160,7 +160,7 @@ const GOES_ON: &str = "goes on from the checkpoint of a run that was broken off"
 /// The last words, when all is written.
 fn ended(plan: &Plan, sums: &Sums, failures: &[String], kept: Option<Checkpoint>) -> Result<(), Stop> {
     kept.into_iter().for_each(Checkpoint::remove);
-    report::closing(plan, &sums.summary());
+    report::closing(plan, &sums.summary(plan.choice.gate));
     if failures.is_empty() { Ok(()) } else { Err(Stop::failures(failures)) }
 }
 
@@ -184,7 +184,8 @@ impl Pages<'_> {
         }
         match self.report.zip(sums.innovations.as_ref()) {
             Some((report, innovations)) => {
-                let page = judgement::page(plan, &sums.summary(), innovations, failures, shown)?;
+                let page =
+                    judgement::page(plan, &sums.summary(plan.choice.gate), innovations, failures, shown)?;
                 report.write(|out| out.write_all(page.as_bytes()))
             }
             None => Ok(()),

@@ -89,6 +89,8 @@ fn advice_is_of_what_is_wrong() {
     // a gate takes the largest of a right model too, and no more is said
     let text = page(&folder, "filter walk.toml drawn.csv --set gate=0.99");
     assert!(text.contains("Yes: mean NIS"), "{text}");
+    let told = folder.run("filter walk.toml drawn.csv --set gate=0.6").good().stderr;
+    assert!(told.contains(", consistent: mean NIS 0."), "{told}");
     // one gross row of few
     folder.write("few.csv", "time,z\n1,0.1\n2,-0.3\n3,0.2\n4,90\n5,0.4\n6,0.1\n7,0.3\n");
     let text = page(&folder, "filter walk.toml few.csv --set gate=0.9999");

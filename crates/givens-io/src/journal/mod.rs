@@ -3,6 +3,7 @@
 //! A line names the format. Then the entries, each behind its length and two sums, one of the length and one of the entry. What
 //! a run that was killed was about to write is cut off; anything else that is not as it was written is refused.
 
+use crate::output::settle_name;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::fs::{File, OpenOptions, TryLockError};
@@ -150,6 +151,7 @@ impl Journal {
         fresh.append(entry)?;
         fresh.settle()?;
         std::fs::rename(&path, &self.path)?;
+        settle_name(&self.path);
         self.file = fresh.file;
         Ok(())
     }

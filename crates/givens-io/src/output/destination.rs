@@ -150,10 +150,24 @@ impl Destination {
         let file = done.and_then(|()| self.file.take().ok_or(io::ErrorKind::NotFound.into()));
         let done = file.and_then(|file| file.into_inner().map_err(io::IntoInnerError::into_error));
         let done = done.and_then(|file| match &self.partial {
-            Some(partial) => file.sync_all().and_then(|()| fs::rename(partial, &self.target)),
+            Some(partial) => {
+                file.sync_all()?;
+                fs::rename(partial, &self.target)?;
+                settle_name(&self.target);
+                Ok(())
+            }
             None => Ok(()),
         });
         done.map_err(|source| DestinationError { path: self.path.clone(), source })
+    }
+}
+
+/// Waits until the name of a file is on the disk, where a folder can be waited for.
+pub(crate) fn settle_name(path: &Path) {
+    if cfg!(unix) {
+        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        // what is written is right in any case; without it, a machine that loses its power may forget the name
+        let _ = File::open(folder).and_then(|folder| folder.sync_all());
     }
 }
 

@@ -13,6 +13,7 @@ use givens::scalar::Shown;
 use std::borrow::Cow;
 use std::io::{self, Write};
 
+pub(crate) use destination::settle_name;
 pub use destination::{Destination, DestinationError, make_folder, read_back};
 pub use simulated::{Drawn, write_measurements, write_states};
 pub use written::Written;

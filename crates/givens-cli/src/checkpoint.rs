@@ -69,16 +69,22 @@ impl Checkpoint {
 
     /// Adds what was done since.
     pub fn append<T: Serialize>(&mut self, done: &T) -> io::Result<()> {
-        self.journal.append(done).and_then(|()| self.journal.settle()).map_err(|error| told(&error))?;
+        let done = self.journal.append(done).and_then(|()| self.journal.settle());
+        done.map_err(|error| self.told(&error))?;
         self.last = Instant::now();
         Ok(())
     }
 
     /// Writes where the run stands, in place of what was written before.
     pub fn replace<T: Serialize>(&mut self, stand: &T) -> io::Result<()> {
-        self.journal.replace(&self.identity, stand).map_err(|error| told(&error))?;
+        let done = self.journal.replace(&self.identity, stand);
+        done.map_err(|error| self.told(&error))?;
         self.last = Instant::now();
         Ok(())
+    }
+
+    fn told(&self, error: &io::Error) -> io::Error {
+        io::Error::new(error.kind(), format!("its checkpoint {}: {error}", self.journal.path().display()))
     }
 
     /// Removes it: the output is whole.
@@ -87,10 +93,6 @@ impl Checkpoint {
             say(&format!("the checkpoint, which is not needed any more, could not be removed: {error}"));
         }
     }
-}
-
-fn told(error: &io::Error) -> io::Error {
-    io::Error::new(error.kind(), format!("its checkpoint: {error}"))
 }
 
 /// Everything on which the numbers of a run depend; `task` is what it is to find out.

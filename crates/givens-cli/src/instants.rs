@@ -23,12 +23,7 @@ impl Instants {
             times.sort_by(|a, b| a.0.total_cmp(&b.0));
             times.dedup_by(|a, b| a.0 == b.0);
             check(text, &times, plan, track, begin)?;
-            for (time, text) in &mut times {
-                let row = track.rows.row(track.rows.before(*time)?)?;
-                if let Some(row) = row.filter(|row| row.time == *time) {
-                    *text = row.time_text;
-                }
-            }
+            named(&mut times, track)?;
             Ok(times)
         });
         times.collect::<Result<_, Stop>>().map(Self)
@@ -62,6 +57,22 @@ impl Instants {
             fingerprint: String::new(),
         }
     }
+}
+
+/// Times that are those of rows have their texts. Both stand in order.
+fn named(times: &mut [(f64, String)], track: &Track) -> Result<(), Stop> {
+    let mut rest = times;
+    for row in track.rows.iter() {
+        let row = row?;
+        let passed = rest.partition_point(|(time, _)| *time < row.time);
+        rest = &mut rest[passed..];
+        match rest.first_mut() {
+            Some((time, text)) if *time == row.time => text.clone_from(&row.time_text),
+            Some(_) => {}
+            None => break,
+        }
+    }
+    Ok(())
 }
 
 fn listed(text: &str, track: &Track) -> Result<Vec<(f64, String)>, Stop> {

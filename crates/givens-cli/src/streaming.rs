@@ -174,8 +174,13 @@ impl<'p> Streaming<'p> {
         let from = if begun || is_point { row } else { 0 };
         self.come.written.0 |= !finished.estimates.is_empty();
         let started = begin.started && row == begin.row;
-        let track = &self.plan.tracks.tracks[0];
-        self.writer.rows(out, &[Part { track, from, row, started, estimates: finished.estimates }])
+        let (track, nothing) = (&self.plan.tracks.tracks[0], Estimates::default());
+        // the rows before the belief holds may be many
+        let mut empty = (from..row).step_by(KEPT).map(|from| (from, (from + KEPT).min(row)));
+        empty.try_for_each(|(from, row)| {
+            self.writer.rows(out, &[Part { track, from, row, started: false, estimates: &nothing }])
+        })?;
+        self.writer.rows(out, &[Part { track, from: row, row, started, estimates: finished.estimates }])
     }
 
     /// Adds rows to what is told of them, and drawn.

@@ -96,11 +96,8 @@ fn alone(plan: &Plan, goal: Goal, manner: Manner, target: Target, pages: Pages) 
     }
     sink.fill(|out| run.run(out, left, kept.as_mut()))?;
     run.stop().map_or(Ok(()), Err)?;
-    // what may be gone on with has its name last
-    let sink = if kept.is_some() { Some(sink) } else { sink.finish().map(|()| None)? };
     let failures = run.failure().map_or(&[][..], core::slice::from_ref);
-    pages.write(plan, run.sums(), failures, run.shown().as_slice())?;
-    sink.map_or(Ok(()), Sink::finish)?;
+    named(plan, sink, kept.is_some(), pages, run.sums(), failures, run.shown().as_slice())?;
     ended(plan, run.sums(), failures, kept)
 }
 
@@ -114,14 +111,14 @@ fn together(plan: &Plan, goals: &[Goal], manner: Manner, target: Target, pages: 
     if !done.is_empty() {
         say(GOES_ON);
     }
-    let sink = Sink::open(target.output)?;
+    let mut sink = Sink::open(target.output)?;
     let session = Session::hold(plan, &plan.choice, goals, manner, done, kept.as_mut())?;
     let (model, format, gated) = (&plan.model, target.format, plan.choice.gate.is_some());
-    sink.write(|out| match manner.at {
+    sink.fill(|out| match manner.at {
         Some(at) => write_answers(out, format, model, &at.tracks(plan), &session.at, gated, manner.threads),
         None => write_answers(out, format, model, &plan.tracks, &session.answers, gated, manner.threads),
     })?;
-    pages.write(plan, &session.sums, &session.failures, &session.shown())?;
+    named(plan, sink, kept.is_some(), pages, &session.sums, &session.failures, &session.shown())?;
     ended(plan, &session.sums, &session.failures, kept)
 }
 
@@ -156,6 +153,21 @@ fn in_turn(plan: &Plan, goals: &[Goal], manner: Manner, target: &Target) -> Resu
 }
 
 const GOES_ON: &str = "goes on from the checkpoint of a run that was broken off";
+
+/// Gives the output its name, and writes the pages; what may be gone on with has its name last.
+fn named(
+    plan: &Plan,
+    sink: Sink,
+    is_kept: bool,
+    pages: Pages,
+    sums: &Sums,
+    failures: &[String],
+    shown: &[Shown],
+) -> Result<(), Stop> {
+    let sink = if is_kept { Some(sink) } else { sink.finish().map(|()| None)? };
+    pages.write(plan, sums, failures, shown)?;
+    sink.map_or(Ok(()), Sink::finish)
+}
 
 /// The last words, when all is written.
 fn ended(plan: &Plan, sums: &Sums, failures: &[String], kept: Option<Checkpoint>) -> Result<(), Stop> {

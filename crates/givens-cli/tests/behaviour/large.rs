@@ -136,6 +136,15 @@ fn rows_on_the_disk_have_the_numbers_of_rows_in_memory() {
             assert!(folder.read("piped.csv") == long, "from a pipe");
         }
     }
+    // times beyond the rows that are held are named as fast as others
+    let at = folder.run("filter walk.toml data.csv --at every:100 -o at.csv").good();
+    assert!(at.stderr.contains(&format!("{LONG} rows, ")), "{}", at.stderr);
+    let of_row = |text: &str| {
+        text.lines()
+            .find(|line| line.starts_with("529900,"))
+            .map(|line| line.split(',').nth(1).unwrap().to_owned())
+    };
+    assert_eq!(of_row(&folder.read("at.csv")).unwrap(), of_row(&folder.read("piped.csv")).unwrap());
     let mut named = String::from("track_id,") + table.lines().next().unwrap() + "\n";
     table.lines().skip(1).for_each(|row| writeln!(named, "one,{row}").unwrap());
     writeln!(named, "two,{}", table.lines().nth(1).unwrap()).unwrap();

@@ -24,6 +24,22 @@ fn an_output_appears_whole_under_its_name() {
 
 #[cfg(unix)]
 #[test]
+fn two_runs_at_once_leave_the_output_of_one() {
+    let folder = folder("at-once");
+    folder.run("simulate walk.toml --steps 100000 --seed 1 -o long.csv").good();
+    let whole = folder.run("filter walk.toml long.csv -o whole.csv").good();
+    let words = ["filter", "walk.toml", "long.csv", "-o", "out.csv"];
+    let mut first = folder.command(&words).spawn().unwrap();
+    // the other begins as soon as this one writes
+    while !folder.path("out.csv.partial").exists() && first.try_wait().unwrap().is_none() {}
+    let second = folder.run("filter walk.toml long.csv -o out.csv");
+    assert!(first.wait().unwrap().success(), "{}", whole.stderr);
+    assert!(folder.read("out.csv") == folder.read("whole.csv"), "the output of another run");
+    assert!(second.code == 1 || second.code == 2, "{}", second.stderr);
+    assert!(second.stderr.contains("another run is writing it"), "{}", second.stderr);
+}
+
+#[test]
 fn links_are_followed_and_devices_stay_devices() {
     let folder = folder("links");
     let expected = folder.run("filter model.toml data.csv").good().stdout;

@@ -47,6 +47,11 @@ impl core::fmt::Display for JournalError {
 impl core::error::Error for JournalError {}
 
 impl Journal {
+    /// The file.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
     /// Opens the journal of a run, and reads the entries of one that was broken off; begins it if there is none.
     ///
     /// # Errors

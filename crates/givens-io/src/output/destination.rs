@@ -1,6 +1,7 @@
 //! A file that appears whole or not at all.
 
 use super::written::{Written, behind};
+use crate::journal::is_locked;
 use crc32fast::Hasher;
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, Write};
@@ -109,9 +110,10 @@ impl Destination {
         let Some(partial) = partial else {
             return Ok((target, None, Some(OpenOptions::new().write(true).open(path)?)));
         };
-        drop(File::create(&partial)?);
+        let file = own(&partial)?;
         // a run that is killed before it writes leaves nothing
         fs::remove_file(&partial)?;
+        drop(file);
         Ok((target, Some(partial), None))
     }
 
@@ -119,7 +121,7 @@ impl Destination {
     fn opened(&mut self) -> io::Result<&mut BufWriter<File>> {
         let file = match (self.file.take(), &self.partial) {
             (Some(file), _) => file,
-            (None, Some(partial)) => BufWriter::new(File::create(partial)?),
+            (None, Some(partial)) => BufWriter::new(own(partial)?),
             (None, None) => return Err(io::Error::from(io::ErrorKind::NotFound)),
         };
         Ok(self.file.insert(file))
@@ -160,6 +162,16 @@ impl Destination {
         });
         done.map_err(|source| DestinationError { path: self.path.clone(), source })
     }
+}
+
+/// Opens a file for this process alone, and empties it.
+fn own(path: &Path) -> io::Result<File> {
+    let file = OpenOptions::new().write(true).create(true).truncate(false).open(path)?;
+    if is_locked(&file) {
+        return Err(io::Error::other("another run is writing it"));
+    }
+    file.set_len(0)?;
+    Ok(file)
 }
 
 /// Waits until the name of a file is on the disk, where a folder can be waited for.

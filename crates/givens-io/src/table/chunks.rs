@@ -71,8 +71,12 @@ impl<'r> Chunks<'r> {
         }
     }
 
-    /// Of a stretch the bytes from `used` on belong to the next one.
+    /// Of a stretch the bytes from `used` on belong to the next one, and the end of the line before: at the very beginning a
+    /// byte order mark would be passed over.
     pub fn give_back(&mut self, chunk: Chunk, used: usize) {
+        let ends =
+            |at: &usize| chunk.source.text.as_bytes().get(*at).is_some_and(|b| matches!(b, b'\n' | b'\r'));
+        let used = used.checked_sub(1).filter(ends).unwrap_or(used);
         // lines are counted up to where the next stretch begins
         self.lines += chunk.source.line_of(used);
         let mut text = chunk.source.text.into_bytes();

@@ -45,6 +45,7 @@ fn all(tracks: &Tracks) -> impl PartialEq + core::fmt::Debug {
 /// Rows of tables, right and wrong, with all that may stand between quotation marks.
 fn line() -> impl Strategy<Value = String> {
     let id = prop_oneof![
+        Just("\u{feff}a"),
         Just("a"),
         Just("b"),
         Just("\"a\""),

@@ -4,6 +4,7 @@ mod blocks;
 mod csv;
 mod destination;
 mod jsonl;
+mod place;
 mod simulated;
 mod written;
 
@@ -13,8 +14,8 @@ use givens::scalar::Shown;
 use std::borrow::Cow;
 use std::io::{self, Write};
 
-pub(crate) use destination::settle_name;
 pub use destination::{Destination, DestinationError, make_folder, read_back};
+pub(crate) use place::settle_name;
 pub use simulated::{Drawn, write_measurements, write_states};
 pub use written::Written;
 

@@ -1,6 +1,6 @@
 //! What a run that was broken off has left of a file.
 
-use super::destination::locate;
+use super::place::locate;
 use crate::journal::is_locked;
 use crc32fast::Hasher;
 use std::fs::{self, File, OpenOptions};

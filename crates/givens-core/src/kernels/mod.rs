@@ -6,6 +6,7 @@
 mod cholesky;
 mod cholesky_again;
 mod downdate;
+mod faint;
 mod health;
 mod lu;
 mod outlined;

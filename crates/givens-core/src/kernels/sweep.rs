@@ -1,5 +1,6 @@
 //! A sweep of Givens rotations: absorbs a linear map of a triangular factor into that factor.
 
+use super::faint::{length, rotation};
 use super::sweep_in_lanes::sweep_in_lanes;
 use super::{Health, dot, outlined, sized};
 use crate::scalar::{Mask, Real};
@@ -34,24 +35,44 @@ fn absorb<T: Real>(a: &mut [T], d: usize, n: usize, q: usize, scratch: &mut [T],
     let (c, s) = scratch.split_at_mut(n);
     let (c, s) = (&mut c[..n], &mut s[..n]);
     let (head, below) = a.split_at_mut((q + 1) * size);
-    let row = &mut head[q * size..];
-    let (pivot, settled) = (row[q], dot(&row[..q], &row[..q]));
-    let (row, z) = row.split_at_mut(d);
+    let (settled, z) = head[q * size..].split_at_mut(d);
     let z = &mut z[..n];
-    let mut sum = pivot * pivot;
-    for j in (0..n).rev() {
-        sum = z[j].mul_add(z[j], sum);
-        c[j] = sum;
-    }
-    // what overflows is not nothing
     let bound = T::of(size as f64 * T::EPSILON);
-    let little = (bound * bound).mul_add(settled + sum, T::of(T::SMALLEST));
-    let nothing = sum.lt(little) & sum.finite();
-    if nothing.all() {
+    let turned = if settled[q].abs().lt(T::of(T::FAINT)).any() {
+        one_by_one(&mut settled[..=q], z, c, s, bound)
+    } else {
+        at_once(&mut settled[..=q], z, c, s, bound)
+    };
+    if turned.nothing.all() {
         drop_row(a, d, n, q);
         return;
     }
-    health.note(nothing | (!sum.finite() & sum.same(sum)), q);
+    health.note(turned.nothing | turned.endless, q);
+    // the rows of D still to come, and of the rows of each S the triangle
+    let mut top = 0;
+    while top < (d - q - 1) * size {
+        turn(&mut below[top..][..size], q, d, n, c, s);
+        top += size;
+    }
+    while top < below.len() {
+        for i in 0..n {
+            turn(&mut below[top + i * size..][..size], q, d, i + 1, c, s);
+        }
+        top += n.max(1) * size;
+    }
+}
+
+/// The lanes in which a row has nothing left, and those in which its squares overflow.
+struct Turned<T: Real> {
+    nothing: T::Mask,
+    endless: T::Mask,
+}
+
+/// Turns what is left of a row, (pivot, z), into the pivot, the last element of `row`: cosines and sines.
+#[inline(always)]
+fn at_once<T: Real>(row: &mut [T], z: &mut [T], c: &mut [T], s: &mut [T], bound: T) -> Turned<T> {
+    let (n, q) = (z.len(), row.len() - 1);
+    let (pivot, turned) = (row[q], sums(row, z, c, bound));
     // the norms of what a column and those after it hold, then their ratios: no root and no quotient waits for another
     let mut before = pivot;
     for j in (0..n).rev() {
@@ -66,18 +87,44 @@ fn absorb<T: Real>(a: &mut [T], d: usize, n: usize, q: usize, scratch: &mut [T],
         z[j] = T::zero();
     }
     row[q] = before;
-    // the rows of D still to come, and of the rows of each S the triangle
-    let mut top = 0;
-    while top < (d - q - 1) * size {
-        turn(&mut below[top..][..size], q, d, n, c, s);
-        top += size;
+    turned
+}
+
+/// In `c` the squares of what a column and those after it hold.
+#[inline(always)]
+fn sums<T: Real>(row: &[T], z: &[T], c: &mut [T], bound: T) -> Turned<T> {
+    let q = row.len() - 1;
+    let settled = dot(&row[..q], &row[..q]);
+    let mut sum = row[q] * row[q];
+    for j in (0..z.len()).rev() {
+        sum = z[j].mul_add(z[j], sum);
+        c[j] = sum;
     }
-    while top < below.len() {
-        for i in 0..n {
-            turn(&mut below[top + i * size..][..size], q, d, i + 1, c, s);
-        }
-        top += n.max(1) * size;
+    // what overflows is not nothing
+    let nothing = sum.le(bound * bound * (settled + sum)) & sum.finite();
+    Turned { nothing, endless: !sum.finite() & sum.same(sum) }
+}
+
+/// The same from a pivot that is faint in some lanes, where squares may have lost digits: a rotation after the other.
+#[cold]
+#[inline(never)]
+fn one_by_one<T: Real>(row: &mut [T], z: &mut [T], c: &mut [T], s: &mut [T], bound: T) -> Turned<T> {
+    let q = row.len() - 1;
+    let faint = row[q].abs().lt(T::of(T::FAINT));
+    let (usual, whole) = (sums(row, z, c, bound), length(z, row[q]));
+    let nothing = whole.le(bound * length(&row[..q], T::zero()));
+    let mut before = row[q];
+    for j in (0..z.len()).rev() {
+        let still = z[j].same(T::zero());
+        let (cosine, sine, length) = rotation(before, z[j]);
+        let norm = T::select(still, before, c[j].sqrt());
+        c[j] = T::select(faint, cosine, T::select(still, T::one(), before / norm));
+        s[j] = T::select(faint, sine, T::select(still, T::zero(), z[j] / norm));
+        before = T::select(faint, length, norm);
+        z[j] = T::zero();
     }
+    row[q] = before;
+    Turned { nothing: (faint & nothing) | (!faint & usual.nothing), ..usual }
 }
 
 /// Turns column q of a row into its columns `first`… by the angles of cosines c and sines s, from the last of `reach` on.
@@ -104,8 +151,7 @@ fn drop_row<T: Real>(a: &mut [T], d: usize, n: usize, q: usize) {
         if y.same(T::zero()).all() {
             continue;
         }
-        let norm = x.hypot(y);
-        let (c, s) = (x / norm, y / norm);
+        let (c, s, _) = rotation(x, y);
         for i in p..d {
             let (x, y) = (a[i * size + p], a[i * size + q]);
             a[i * size + p] = c * x + s * y;

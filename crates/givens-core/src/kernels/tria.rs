@@ -1,5 +1,6 @@
 //! Triangularisation by Householder reflections of the columns, in echelon form.
 
+use super::faint::unit_row;
 use super::product::long_dot as dot;
 use super::tria_wide::tria_in_packs;
 use super::{Health, outlined};
@@ -10,10 +11,9 @@ outlined! {
     ///
     /// `a` holds `rows` × `columns` in rows of length `stride` ≥ max(rows, columns); S ends in its first `rows`
     /// columns, zeros behind it. What is left of a row after the earlier reflections and is at most
-    /// `columns` ε of the row counts as zero, and so does what has no square of all digits (below 1.5e-154 in `f64`, 1.1e-19
-    /// in `f32`): that column of S is zero and uses up no reflection, so that the factor of a deficient A can be divided by.
-    /// A pack whose lanes disagree on that reports those with the zero as sick; so are lanes with a row whose squares
-    /// overflow.
+    /// `columns` ε of the row counts as zero: that column of S is zero and uses up no reflection, so that the factor of a
+    /// deficient A can be divided by. A pack whose lanes disagree on that reports those with the zero as sick; so are lanes
+    /// with a row whose squares overflow.
     ///
     /// ```
     /// use givens_core::kernels::tria;
@@ -65,14 +65,19 @@ fn reflect<T: Real>(
     let rest = sum_of_squares(&row[used.min(columns)..columns]);
     let bound = T::of(columns as f64 * T::EPSILON);
     // what overflows is not nothing
-    let little = (bound * bound).mul_add(settled + rest, T::of(T::SMALLEST));
-    let nothing = rest.lt(little) & rest.finite();
+    let mut nothing = rest.le(bound * bound * (settled + rest)) & rest.finite();
+    let (mut norm, mut pivot) = (rest.sqrt(), rest.sqrt());
+    let faint = rest.lt(T::of(T::FAINT * T::FAINT));
+    if used < columns && faint.any() {
+        let (none, length) = unit_row(row, used, columns, bound, faint);
+        nothing = (faint & none) | (!faint & nothing);
+        (norm, pivot) = (T::select(faint, T::one(), norm), T::select(faint, length, pivot));
+    }
     if used >= columns || nothing.all() {
         row[used..].fill(T::zero());
         return false;
     }
     health.note(nothing | (!rest.finite() & rest.same(rest)), i);
-    let norm = rest.sqrt();
     // v = rest of the row with its head moved away from zero; H = I − v vᵀ / (norm · |v head|)
     let head = row[used];
     let toward = norm.copysign(head);
@@ -86,7 +91,7 @@ fn reflect<T: Real>(
         }
         lower[used] *= flip;
     }
-    row[used] = norm;
+    row[used] = pivot;
     row[used + 1..].fill(T::zero());
     true
 }

@@ -100,7 +100,7 @@ fn panel<P: Pack<Element = f64>, const H: usize>(
             squares[q] += x * x;
         }
         let rest = panel.along[q];
-        let little = bound * bound * (squares[q] + rest) + f64::SMALLEST;
+        let little = bound * bound * (squares[q] + rest) + f64::FAINT * f64::FAINT;
         first + q >= columns || !(rest >= little && rest.is_finite())
     };
     let mut done = 0;

@@ -82,7 +82,8 @@ impl Matrix<'_> {
             let (above, below) = a.split_at_mut((i + 1) * stride);
             let row = &mut above[i * stride..];
             let rest = along[i];
-            let little = bound * bound * (plus_dot(0.0, &row[..i], &row[..i]) + rest) + f64::SMALLEST;
+            let little =
+                bound * bound * (plus_dot(0.0, &row[..i], &row[..i]) + rest) + f64::FAINT * f64::FAINT;
             if !(rest >= little && rest.is_finite()) {
                 break;
             }

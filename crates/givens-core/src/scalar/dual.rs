@@ -71,7 +71,7 @@ fn bell<T: Real>(x: T) -> T {
 impl<T: Real> Real for Dual2<T> {
     type Mask = T::Mask;
     const EPSILON: f64 = T::EPSILON;
-    const SMALLEST: f64 = T::SMALLEST;
+    const FAINT: f64 = T::FAINT;
     const DEPTH: usize = T::DEPTH + 1;
 
     #[inline(always)]

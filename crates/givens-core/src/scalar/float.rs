@@ -13,13 +13,13 @@ macro_rules! elementary {
 }
 
 macro_rules! float {
-    ($float:ident, $sqrt:path, $floor:path, $exp:path, $ln:path, $log10:path, $sincos:path, $tan:path,
+    ($float:ident, $faint:expr, $sqrt:path, $floor:path, $exp:path, $ln:path, $log10:path, $sincos:path, $tan:path,
      $asin:path, $acos:path, $atan:path, $atan2:path, $sinh:path, $cosh:path, $tanh:path, $pow:path,
      $hypot:path, $erf:path, $erfc:path) => {
         impl Real for $float {
             type Mask = bool;
             const EPSILON: f64 = $float::EPSILON as f64;
-            const SMALLEST: f64 = $float::MIN_POSITIVE as f64;
+            const FAINT: f64 = $faint;
 
             #[inline(always)]
             fn vectorised<W: Inside>(kernel: W) -> W::Output {
@@ -171,6 +171,7 @@ fn erfcf(x: f32) -> f32 {
 
 float!(
     f64,
+    f64::from_bits((1023 - 260) << 52),
     libm::sqrt,
     libm::floor,
     libm::exp,
@@ -192,6 +193,7 @@ float!(
 );
 float!(
     f32,
+    f64::from_bits((1023 - 36) << 52),
     libm::sqrtf,
     libm::floorf,
     libm::expf,

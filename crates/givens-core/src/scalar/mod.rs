@@ -83,8 +83,8 @@ pub trait Real:
     type Mask: Mask;
     /// The distance from one to the next larger number of the underlying float.
     const EPSILON: f64;
-    /// The smallest positive number of the underlying float that has all of its digits.
-    const SMALLEST: f64;
+    /// A power of two below which squares of the underlying float, or products with them, may run out of digits.
+    const FAINT: f64;
     /// How many times the number is derived.
     const DEPTH: usize = 0;
 

@@ -8,6 +8,7 @@
 
 mod cholesky;
 mod downdate;
+mod faint;
 mod matrix;
 mod solve;
 mod sweep;

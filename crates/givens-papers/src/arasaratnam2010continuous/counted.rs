@@ -128,7 +128,7 @@ macro_rules! comparisons {
 impl Real for Counted {
     type Mask = bool;
     const EPSILON: f64 = f64::EPSILON;
-    const SMALLEST: f64 = f64::SMALLEST;
+    const FAINT: f64 = f64::FAINT;
 
     fn of(value: f64) -> Self {
         Self(value)

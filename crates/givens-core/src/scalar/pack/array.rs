@@ -60,7 +60,7 @@ impl<E: Element, const N: usize> Neg for Array<E, N> {
 impl<E: Element, const N: usize> Real for Array<E, N> {
     type Mask = Truths<N>;
     const EPSILON: f64 = E::EPSILON;
-    const SMALLEST: f64 = E::SMALLEST;
+    const FAINT: f64 = E::FAINT;
 
     #[inline(always)]
     fn of(value: f64) -> Self {

@@ -50,7 +50,7 @@ macro_rules! register {
         impl Real for $pack {
             type Mask = $mask;
             const EPSILON: f64 = $element::EPSILON as f64;
-            const SMALLEST: f64 = $element::MIN_POSITIVE as f64;
+            const FAINT: f64 = $element::FAINT;
 
             #[inline(always)]
             fn within<W: Inside>(work: W) -> W::Output {

@@ -13,6 +13,7 @@ A model is written in ordinary NumPy and runs natively, with exact derivatives:
 ((50, 2), (50, 2))
 """
 
+from givens import _native
 from givens.batch import Batch
 from givens.comparison import Compared, Comparison, compare
 from givens.consistency import Consistency
@@ -58,3 +59,5 @@ __all__ = [
     "simulate",
     "smooth",
 ]
+
+__version__: str = _native.VERSION

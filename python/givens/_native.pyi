@@ -6,12 +6,13 @@ like; those that come back are row by row and cannot be written to. A missing me
 """
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, Literal, NotRequired, TypedDict, final
+from typing import Any, Final, Literal, NotRequired, TypedDict, final
 
 import numpy as np
 from numpy.typing import NDArray
 
 __all__ = [
+    "VERSION",
     "ArrowTable",
     "Choice",
     "Estimates",
@@ -30,6 +31,8 @@ __all__ = [
     "sample",
     "simulate",
 ]
+
+VERSION: Final[str]
 
 _Array = NDArray[np.float64]
 _Kind = Literal["discrete", "continuous"]

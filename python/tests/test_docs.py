@@ -1,5 +1,6 @@
 """What the build of the site does not check by itself."""
 
+import importlib.metadata
 import re
 import runpy
 from pathlib import Path
@@ -17,6 +18,10 @@ def test_the_reference_has_every_public_name_once():
     text = "\n".join(page.read_text() for page in (DOCS / "api").glob("*.md"))
     named = re.findall(r"^\.\. auto(?:class|function):: givens\.(\w+)$", text, re.MULTILINE)
     assert sorted(named) == sorted(gv.__all__)
+
+
+def test_the_version_is_that_of_what_is_installed():
+    assert gv.__version__ == importlib.metadata.version("givens")
 
 
 def test_each_page_is_in_a_table_of_contents():

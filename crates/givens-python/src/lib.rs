@@ -30,6 +30,8 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _native {
     #[pymodule_export]
+    const VERSION: &str = env!("CARGO_PKG_VERSION");
+    #[pymodule_export]
     use crate::arrow::{ArrowTable, arrow_stream};
     #[pymodule_export]
     use crate::choice::{Choice, methods, options};

@@ -53,7 +53,7 @@ impl<X: Over<M>, M, H: Observation, E: Element> Job<E> for Lockstep<'_, '_, X, M
             History::<P, Vec<P>>::new(n, true, vec![P::zero(); History::<P, Vec<P>>::memory_len(n, records)]);
         let mut spare = vec![P::zero(); Filter::<X, M, P, Vec<P>>::spare_len(n)];
         let mut rows = Rows::<P>::begin(tracks, filter.controls(), begun);
-        let mut lanes = Lanes::<P>::new(tracks, goal);
+        let mut lanes = Lanes::<P>::new(tracks, n, goal);
         for k in 0..longest {
             if watch.stopped() || rows.well == 0 {
                 return nothing();

@@ -20,9 +20,10 @@ pub(super) struct Lanes<P: Pack> {
 }
 
 impl<P: Pack> Lanes<P> {
-    /// Room for all rows of the tracks.
-    pub fn new<M, H: Observation>(tracks: &[Track<M, H>], goal: Goal) -> Self {
-        let (n, d) = (tracks[0].prior.mean().len(), tracks[0].sensors.measures());
+    /// Room for all rows of the tracks, of n states: those of the filter, which the prior of a track that could not begin may
+    /// not have.
+    pub fn new<M, H: Observation>(tracks: &[Track<M, H>], n: usize, goal: Goal) -> Self {
+        let d = tracks[0].sensors.measures();
         let smoothed = goal != Goal::Filter;
         let room = |track: &Track<M, H>| {
             let rows = track.data.len();

@@ -30,7 +30,7 @@ pub fn told(model: &Model, place: &str, what: &str, choice: Option<&Choice>, err
     let measures: Vec<&str> = columns.map(String::as_str).collect();
     let kind = crate::method::kind(model);
     let explain = Explain { face: Face::Command, kind, states: &states, measures: &measures };
-    format!("{place}, step {}: the {what} failed: {}", error.step, explain.told(choice, &error.fault))
+    format!("{place}: the {what} failed: {}", explain.told(choice, &error.fault))
 }
 
 /// The mean from which a step set out that failed on a number or in a solver; nothing for other faults.
@@ -57,7 +57,8 @@ impl Failed<'_> {
     /// All of it in words, of track `i`.
     pub fn told(&self, plan: &Plan, choice: &Choice, i: usize, goal: Goal) -> String {
         let (track, begin) = (&plan.tracks.tracks[i], &plan.beginnings[i]);
-        let place = place_of(plan, i, begin.row + self.row, self.error.time);
+        let row = begin.row + self.row;
+        let place = format!("{}, step {}", place_of(plan, i, row, self.error.time), row + 1);
         let what = if goal == Goal::Filter { "filter" } else { "smoother" };
         let told = told(&plan.model, &place, what, Some(choice), self.error);
         let set_out = set_out(&plan.model, self.set_out, &self.error.fault);

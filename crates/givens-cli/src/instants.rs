@@ -15,7 +15,10 @@ impl Instants {
     /// Reads `T,…` or `every:DT` on the axis of each track.
     pub fn read(text: &str, plan: &Plan) -> Result<Self, Stop> {
         let tracks = plan.tracks.tracks.iter().zip(&plan.beginnings);
-        let times = tracks.map(|(track, begin)| {
+        let times = tracks.enumerate().map(|(i, (track, begin))| {
+            if plan.unbegun.contains_key(&i) {
+                return Ok(Vec::new());
+            }
             let mut times = match text.strip_prefix("every:") {
                 Some(step) => every(text, step, track, begin)?,
                 None => listed(text, track)?,

@@ -11,14 +11,17 @@ use givens::metrics::Truth as States;
 use givens::registry::Choice;
 use givens::scalar::Shown;
 use givens_io::{Beginning, Model, Track, Tracks, read_tracks};
+use std::collections::BTreeMap;
 
 /// Everything that a run over data needs, read and checked.
 pub struct Plan {
     pub model: Model,
     pub data: String,
     pub tracks: Tracks,
-    /// Where each track begins.
+    /// Where each track begins; of those that do not, behind their last row.
     pub beginnings: Vec<Beginning>,
+    /// Why tracks cannot begin, in words.
+    pub unbegun: BTreeMap<usize, String>,
     pub choice: Choice,
     pub truth: Option<Truth>,
 }
@@ -35,16 +38,9 @@ impl Plan {
         ignored(data, &tracks.ignored, &absent(&model, &tracks));
         let data = source_name(data);
         degrees(data, &model, &tracks);
-        let beginnings = tracks.tracks.iter().map(|track| {
-            model.begin(track).map_err(|error| {
-                let line = error.line.map_or(String::new(), |line| format!("{line}:"));
-                let name = track.id.as_ref().map_or(String::new(), |id| format!("track {id}: "));
-                Stop::input(format!("{data}:{line} {name}{}", error.message)).help(error.help)
-            })
-        });
-        let beginnings = beginnings.collect::<Result<_, _>>()?;
+        let (beginnings, unbegun) = begun(&model, data, &tracks)?;
         let truth = truth.map(|path| Truth::read(path, &model, &tracks)).transpose()?;
-        Ok(Self { model, data: data.to_owned(), tracks, beginnings, choice, truth })
+        Ok(Self { model, data: data.to_owned(), tracks, beginnings, unbegun, choice, truth })
     }
 
     /// The truth that estimates of track `i` at these times are of, NaN where there is none.
@@ -63,7 +59,10 @@ impl Plan {
 
     /// The time at which `--point` stands on the axis of each track.
     pub fn points(&self, text: &str) -> Result<Vec<Goal>, Stop> {
-        let point = |(track, begin): (&Track, &Beginning)| {
+        let point = |(i, (track, begin)): (usize, (&Track, &Beginning))| {
+            if self.unbegun.contains_key(&i) {
+                return Ok(Goal::Point(begin.time));
+            }
             let t = track.parse_time(text).map_err(|error| Stop::input(format!("--point: {error}")))?;
             let at = track.rows.before(t)?.max(begin.row);
             let beside = track.rows.read(at.saturating_sub(1).max(begin.row)..at + 1)?;
@@ -83,9 +82,10 @@ impl Plan {
                 None => stop,
             })
         };
-        let goals = self.tracks.tracks.iter().zip(&self.beginnings).map(point);
+        let goals = self.tracks.tracks.iter().zip(&self.beginnings).enumerate().map(point);
         let goals = goals.collect::<Result<Vec<_>, _>>()?;
         let known = |(i, goal): (usize, &Goal)| match (&self.truth, goal) {
+            _ if self.unbegun.contains_key(&i) => false,
             (Some(truth), Goal::Point(t)) => truth.row(i, *t).is_some(),
             _ => true,
         };
@@ -95,6 +95,37 @@ impl Plan {
         }
         Ok(goals)
     }
+}
+
+/// Where each track begins, and why some do not; an error if none does.
+fn begun(
+    model: &Model,
+    data: &str,
+    tracks: &Tracks,
+) -> Result<(Vec<Beginning>, BTreeMap<usize, String>), Stop> {
+    let mut begun = None;
+    let mut unbegun = BTreeMap::new();
+    let beginnings: Vec<_> = tracks.tracks.iter().map(|track| model.begin(track)).collect();
+    for (i, (track, beginning)) in tracks.tracks.iter().zip(&beginnings).enumerate() {
+        match beginning {
+            Ok(beginning) => begun = begun.or(Some(beginning.clone())),
+            Err(error) => {
+                let line = error.line.map_or(String::new(), |line| format!("{line}:"));
+                let name = track.id.as_ref().map_or(String::new(), |id| format!("track {id}: "));
+                let message = format!("{data}:{line} {name}{}\n  help: {}", error.message, error.help);
+                unbegun.insert(i, message);
+            }
+        }
+    }
+    let Some(begun) = begun else {
+        return Err(unbegun.into_values().next().map_or_else(|| Stop::input("no track"), Stop::input));
+    };
+    let never = |track: &Track| {
+        let time = track.rows.last().map_or(track.start, |row| row.time);
+        Beginning { time, row: track.rows.len(), started: false, ..begun.clone() }
+    };
+    let beginnings = tracks.tracks.iter().zip(beginnings);
+    Ok((beginnings.map(|(track, begun)| begun.unwrap_or_else(|_| never(track))).collect(), unbegun))
 }
 
 /// Columns that a table could have and has not.

@@ -44,26 +44,27 @@ impl Portion {
         self.rows >= LEAST.0 && self.tracks.len() >= LEAST.1
     }
 
-    /// What comes of its tracks.
+    /// What comes of those of its tracks that begin.
     pub fn run(
         &self,
         plan: &Plan,
         choice: &Choice,
         batch: &Batch,
         at: Option<&Instants>,
-    ) -> Result<Vec<Outcome>, Stop> {
+    ) -> Result<Vec<(usize, Outcome)>, Stop> {
         let sensors = &plan.model.observation;
-        let data = self.tracks.clone().map(|i| data(plan, i)).collect::<Result<Vec<_>, _>>()?;
-        let at: Vec<_> = self.tracks.clone().map(|i| at.map_or(Vec::new(), |at| at.of(i))).collect();
-        let begun = &plan.beginnings[self.tracks.clone()];
+        let begin: Vec<usize> = self.tracks.clone().filter(|i| !plan.unbegun.contains_key(i)).collect();
+        let data = begin.iter().map(|&i| data(plan, i)).collect::<Result<Vec<_>, _>>()?;
+        let at: Vec<_> = begin.iter().map(|&i| at.map_or(Vec::new(), |at| at.of(i))).collect();
+        let begun: Vec<_> = begin.iter().map(|&i| &plan.beginnings[i]).collect();
         let outcomes = match &plan.model.dynamics {
-            Dynamics::Discrete(model) => choice.run_batch(&tracks(model, sensors, &data, begun, &at), batch),
+            Dynamics::Discrete(model) => choice.run_batch(&tracks(model, sensors, &data, &begun, &at), batch),
             Dynamics::Continuous(model) => {
-                choice.run_batch_continuous(&tracks(model, sensors, &data, begun, &at), batch)
+                choice.run_batch_continuous(&tracks(model, sensors, &data, &begun, &at), batch)
             }
         };
         // none was cancelled
-        Ok(outcomes.into_iter().flatten().collect())
+        Ok(begin.into_iter().zip(outcomes.into_iter().flatten()).collect())
     }
 }
 
@@ -71,7 +72,7 @@ fn tracks<'a, M, H>(
     model: &'a M,
     sensors: &'a H,
     data: &'a [Data],
-    beginnings: &'a [Beginning],
+    beginnings: &[&'a Beginning],
     at: &'a [Vec<f64>],
 ) -> Vec<Track<'a, M, H>> {
     let each = data.iter().zip(beginnings).zip(at);

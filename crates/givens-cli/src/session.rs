@@ -140,10 +140,23 @@ impl Session {
         let begun = Instant::now();
         let outcomes = portion.run(plan, choice, &batch, at)?;
         self.took += begun.elapsed();
-        for (i, outcome) in portion.tracks.zip(outcomes) {
-            self.take(plan, choice, i, outcome, manner);
+        let mut outcomes = outcomes.into_iter().peekable();
+        for i in portion.tracks {
+            match outcomes.next_if(|(track, _)| *track == i) {
+                Some((_, outcome)) => self.take(plan, choice, i, outcome, manner),
+                None => self.unbegun(plan, i, manner),
+            }
         }
         Ok(())
+    }
+
+    /// Track `i` cannot begin, and has no row.
+    fn unbegun(&mut self, plan: &Plan, i: usize, manner: Manner) {
+        self.failures.extend(plan.unbegun.get(&i).cloned());
+        self.answers.push(Answer::default());
+        if manner.at.is_some() {
+            self.at.push(Answer::default());
+        }
     }
 
     /// Takes in what came of track `i`.

@@ -26,7 +26,7 @@ fn one_track_that_fails_leaves_the_others() {
     folder.write("walk.toml", &model()).write("data.csv", DATA);
     let found = folder.run("filter walk.toml data.csv -o out.csv");
     assert_eq!((found.code, found.stdout.as_str()), (1, ""));
-    let words = "data.csv:6: track b, t = 3, step 4: the filter failed: the transition of `x` is not a finite number; \
+    let words = "data.csv:6: track b, t = 3, step 3: the filter failed: the transition of `x` is not a finite number; \
                  look for a division by zero, the root of a negative number, or an estimate that runs away\n  the step set out from x = 65.294\n  2 rows of track b finished before";
     assert!(found.stderr.contains(words), "{}", found.stderr);
     let cells = super::common::cells(&folder.read("out.csv"));
@@ -58,7 +58,7 @@ fn smoothed_before_a_failure(name: &str, how: &str) {
     folder.write("walk.toml", &model()).write("data.csv", data).write("less.csv", &data.replace("4,1\n", ""));
     let found = folder.run(&format!("smooth walk.toml data.csv {how}"));
     assert_eq!(found.code, 1);
-    assert!(found.stderr.contains("data.csv:5: t = 4, step 6: the smoother failed: "), "{}", found.stderr);
+    assert!(found.stderr.contains("data.csv:5: t = 4, step 4: the smoother failed: "), "{}", found.stderr);
     assert!(found.stderr.contains("\n  3 rows finished before"), "{}", found.stderr);
     let less = folder.run(&format!("smooth walk.toml less.csv {how}")).good();
     assert_eq!(found.stdout, less.stdout, "{how}");
@@ -134,7 +134,7 @@ fn an_innovation_too_large_to_be_squared_names_its_measure() {
     folder.write("walk.toml", WALK).write("data.csv", "time,z\n1,1\n2,1e200\n");
     let found = folder.run("filter walk.toml data.csv");
     assert_eq!(found.code, 1);
-    let words = "data.csv:3: t = 2, step 3: the filter failed: the innovation of `z`, in its standard deviations, is too \
+    let words = "data.csv:3: t = 2, step 2: the filter failed: the innovation of `z`, in its standard deviations, is too \
                  large to be squared; look for a wrong unit";
     assert!(found.stderr.contains(words), "{}", found.stderr);
 }

@@ -29,6 +29,37 @@ impl Sde for Proportional {
     }
 }
 
+/// A Brownian motion of strength a/b, of the two parameters.
+struct Quotient;
+
+impl Sde for Quotient {
+    fn states(&self) -> usize {
+        1
+    }
+    fn noises(&self) -> usize {
+        1
+    }
+    fn drift<T: Real>(&self, _: &At<T>, _: &[T], dx: &mut [T]) {
+        dx[0] = T::zero();
+    }
+    fn diffusion<T: Real>(&self, at: &At<T>, _: &[T], g: &mut [T]) {
+        g[0] = at.p[0] / at.p[1];
+    }
+    fn parameters(&self) -> &[f64] {
+        &[1.0, 1.0]
+    }
+}
+
+#[test]
+fn a_diffusion_that_overflows_is_told_as_that() {
+    let mut f =
+        SrCdCkf::default().start(&Quotient, 0.0, Gaussian::from_std(&[0.0], &[1.0]).unwrap()).unwrap();
+    f.set_parameters(&[1e6, 5e-324]).unwrap();
+    let mut f = SrCdCkf::default().resume(&Quotient, &f.snapshot()).unwrap();
+    let fault = f.predict(1.0).unwrap_err().fault;
+    assert!(matches!(fault, Fault::NotFinite { .. }), "{fault}");
+}
+
 /// dx = (1 − x) dt.
 struct Relaxing;
 

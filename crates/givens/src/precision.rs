@@ -7,8 +7,8 @@ use crate::scalar::Element;
 ///
 /// Estimates are given in `f64` all the same, and hold what the arithmetic of `f32` gave: about seven digits, of a mean as of
 /// a standard deviation. Times and the differences between them are kept in `f64`; a model sees its step, and the time, as
-/// `f32`. A mean whose standard deviation is below its rounding (1e-7 of it) is an error, as it is in `f64`
-/// (docs/algorithms.md R7).
+/// `f32`. A standard deviation of less than eight to sixteen spacings of numbers at its mean (1e-6 of it) is an
+/// error, as it is in `f64` (docs/algorithms.md R7).
 ///
 /// ```
 /// use givens::filter::{Gaussian, SrCkf};

@@ -38,7 +38,10 @@ fn main() -> Result<(), String> {
     let kept = pool.len();
     let mut findings: BTreeMap<String, (usize, Vec<u8>, String)> = BTreeMap::new();
     let (begin, mut slowest) = (Instant::now(), (0.0, Vec::new()));
-    for _ in 0..executions {
+    for done in 0..executions {
+        if done > 0 && done % (executions / 10).max(1) == 0 {
+            eprintln!("{}: {done} in {:.0} s, {} places", of.name, begin.elapsed().as_secs_f64(), findings.len());
+        }
         let input = mutate(&pool[random.below(pool.len())], of.words, of.longest, &mut random);
         let start = Instant::now();
         if catch_unwind(AssertUnwindSafe(|| (of.body)(&input))).is_err() {

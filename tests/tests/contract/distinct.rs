@@ -101,10 +101,9 @@ fn points_that_coincide_with_the_mean_are_refused() {
 }
 
 #[test]
-fn a_rule_without_points_has_none_that_coincide() {
-    let model = Straight(1.0);
-    assert!(start::<f64, _>(Ekf::default(), &model, [1e16, 1.0], [0.1, 1.0]).predict(1.0).is_ok());
-    assert!(start::<f64, _>(SrEkf::default(), &model, [1e16, 1.0], [0.1, 1.0]).predict(1.0).is_ok());
+fn a_rule_without_points_has_a_mean_that_is_rounded_too() {
+    refuses("ekf", Ekf::default());
+    refuses("sr-ekf", SrEkf::default());
 }
 
 #[test]
@@ -185,6 +184,30 @@ fn stays<X: Method + givens::filter::Over<Straight> + Copy>(name: &str, method: 
 #[test]
 fn what_is_accepted_keeps_its_mean() {
     every_type!(stays);
+    stays("ekf", Ekf::default());
+    stays("sr-ekf", SrEkf::default());
+}
+
+/// A sensor far finer than the spacing of single precision at what it measures is refused; one without noise is not.
+fn finer<X: Method + givens::filter::Over<Straight> + Copy>(name: &str, method: X) {
+    for (std, refused) in [(1e-6, Some(0)), (1e-12, Some(0)), (0.0, None)] {
+        let model = Straight(std);
+        for mean in [0.0, 300.0, 1000.0] {
+            let mut filter = start::<f32, X>(method, &model, [mean, 0.0], [1e3, 1.0]);
+            assert_eq!(indistinct(filter.update(&model, &[345.584])), refused, "{name}: {std} at {mean}");
+            assert_eq!(indistinct(filter.predict(1.0)).or(refused), refused, "{name}: {std} at {mean}");
+        }
+    }
+}
+
+#[test]
+fn a_sensor_finer_than_numbers_is_refused() {
+    finer("sr-ekf", SrEkf::default());
+    finer("sr-ukf", SrUkf::default());
+    finer("sr-cdkf", SrCdkf::default());
+    finer("sr-qkf", SrQkf::default());
+    finer("sr-ckf", SrCkf::default());
+    finer("sr-ckf5", SrCkf5::default());
 }
 
 /// The height of the first state above 10⁶, to a few picometres: at that mean, doubles are a tenth of a nanometre apart.

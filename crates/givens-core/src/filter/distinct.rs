@@ -80,8 +80,8 @@ pub(super) fn note<T: Real>(mean: &[T], factor: &[T], before: &mut [T]) {
 /// After an update. A mean, or a row of the root, that is finite in no lane is a fault: sums of squares may overflow where
 /// none of the numbers does. In the lanes of `exact`, where a measure had no noise, what is left of a standard deviation
 /// that it has made small may be the rounding of what it was and of its mean: that much is its floor. Elsewhere, a
-/// component that has become known to a few spacings of numbers at its mean before has a mean of rounding. On a fault
-/// nothing is changed but `before`.
+/// component that has become known to a few spacings of numbers at its mean, before or now, has a mean of rounding. On a
+/// fault nothing is changed but `before`.
 #[inline(always)]
 pub(super) fn judge<T: Real>(
     before: &mut [T],
@@ -104,7 +104,7 @@ pub(super) fn judge<T: Real>(
         let left = rounding * (deviations[i] + was);
         // the floor that it will have takes the place of its mean before
         means[i] = T::select(exact & learnt, floor[i].max(left), floor[i]);
-        let vague = now.lt(T::of(SPACINGS * T::EPSILON) * was) & means[i].lt(now);
+        let vague = now.lt(T::of(SPACINGS * T::EPSILON) * was.max(mean.abs())) & means[i].lt(now);
         health.note(learnt & vague, i);
     }
     if let Some(component) = health.failed() {

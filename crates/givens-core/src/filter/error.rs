@@ -179,9 +179,9 @@ impl fmt::Display for Fault {
             ),
             Fault::Indistinct { component } => write!(
                 f,
-                "the points of component {} of the state cannot be told from its mean: its standard deviation is a few \
-                 spacings of numbers there, or less; measure it from a nearer origin, or make its standard deviation \
-                 zero if it is known",
+                "the standard deviation of component {} of the state is a few spacings of numbers at its mean, or less: \
+                 rounding would decide what becomes of it; measure it from a nearer origin, or make its standard \
+                 deviation zero if it is known",
                 component + 1
             ),
             Fault::Backwards { to } => write!(f, "cannot predict back to t = {}", Shown(to)),

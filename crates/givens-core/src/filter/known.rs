@@ -64,7 +64,7 @@ impl<X: Method, M, T: Real, B: AsRef<[T]>> Filter<'_, X, M, T, B> {
     pub fn write_cov(&self, cov: &mut [T]) {
         let n = self.layout.sizes.states;
         if X::Form::SQUARE_ROOT {
-            crate::kernels::square(cov, n, self.factor(), n, n);
+            crate::kernels::square_lower(cov, n, self.factor());
         } else {
             cov[..n * n].copy_from_slice(self.own_cov());
         }

@@ -110,11 +110,9 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
         let Parts { kept, table, u, p, floor, before, mut belief, mut total, mut later, scratch, .. } = parts;
         let n = belief.mean.len();
         note(belief.mean, belief.factor, before);
-        let mut blurred = T::Mask::splat(false);
-        if let Some(reach) = rule.reach(n) {
-            blurred = distinct(reach, belief.mean, belief.factor, floor, before)
-                .map_err(|fault| StepError { fault, time: t, step })?;
-        }
+        let reach = rule.reach(n);
+        let blurred = distinct(reach, belief.mean, belief.factor, floor, before)
+            .map_err(|fault| StepError { fault, time: t, step })?;
         let at = At { t: start, dt: length, u, p };
         // the way back is put together in the same scratch
         let mut given = Given { rule: &rule, table, model, at, again: chained && !smoothing, kept };
@@ -133,9 +131,7 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
             }
         };
         let sick = chain.map_err(|fault| StepError { fault, time: t + dt, step })?;
-        if let Some(reach) = rule.reach(n) {
-            lower(reach, before, belief.mean, belief.factor, floor);
-        }
+        lower(reach, before, belief.mean, belief.factor, floor);
         self.work = work;
         self.moved = self.layout.moved;
         self.time = t + dt;
@@ -235,11 +231,9 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
             scratch,
             ..
         } = self.known_parts()?;
-        let mut sick = T::Mask::splat(false);
         note(belief.mean, belief.factor, before);
-        if let Some(reach) = rule.reach(belief.mean.len()) {
-            sick = distinct(reach, belief.mean, belief.factor, floor, before)?;
-        }
+        let reach = rule.reach(belief.mean.len());
+        let mut sick = distinct(reach, belief.mean, belief.factor, floor, before)?;
         let at = At { t, dt: T::zero(), u, p };
         if !moved {
             belief.moved = &mut [];

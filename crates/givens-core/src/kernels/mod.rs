@@ -29,7 +29,8 @@ pub use health::Health;
 pub use lu::{lu, lu_order, lu_solve, lu_solve_transposed};
 pub(crate) use outlined::outlined;
 pub use product::{
-    add_outer, copy_lower, dot, less_dot, plus_dot, plus_magnitudes, product_lower, square, wild_row,
+    add_outer, copy_lower, dot, less_dot, plus_dot, plus_magnitudes, product_lower, square, square_lower,
+    wild_row,
 };
 pub(crate) use sized::sized;
 pub use solve::{divide_lower, divide_lower_transposed, solve_lower, solve_lower_rows};

@@ -3,6 +3,7 @@
 //! The sums are loops, not folds, and the short ones go over indices: what the compiler does not inline, a zip in a large
 //! function among it, is compiled without the instructions of a pack.
 
+use super::outlined;
 use crate::scalar::{Mask, Real};
 
 /// From this length on sums are taken four at a time.
@@ -121,6 +122,22 @@ pub fn square<T: Real>(p: &mut [T], n: usize, a: &[T], stride: usize, k: usize) 
         for j in 0..=i {
             let (x, y) = (&a[i * stride..i * stride + k], &a[j * stride..j * stride + k]);
             let product = if k < LONG { dot(x, y) } else { long_dot(x, y) };
+            (p[i * n + j], p[j * n + i]) = (product, product);
+        }
+    }
+}
+
+outlined! {
+    /// P = S Sᵀ, n × n and symmetric to the bit, from the lower-triangular S in rows of length n.
+    pub fn square_lower(p: &mut [T], n: usize, s: &[T]) -> () = squared
+}
+
+#[inline(always)]
+fn squared<T: Real>(p: &mut [T], n: usize, s: &[T]) {
+    for i in 0..n {
+        for j in 0..=i {
+            let (x, y) = (&s[i * n..=i * n + j], &s[j * n..=j * n + j]);
+            let product = if j < LONG { dot(x, y) } else { long_dot(x, y) };
             (p[i * n + j], p[j * n + i]) = (product, product);
         }
     }

@@ -100,9 +100,10 @@ fn sums<T: Real>(row: &[T], z: &[T], c: &mut [T], bound: T) -> Turned<T> {
         sum = z[j].mul_add(z[j], sum);
         c[j] = sum;
     }
+    let whole = settled + sum;
     // what overflows is not nothing
-    let nothing = sum.le(bound * bound * (settled + sum)) & sum.finite();
-    Turned { nothing, endless: !sum.finite() & sum.same(sum) }
+    let nothing = sum.le(bound * bound * whole) & whole.finite();
+    Turned { nothing, endless: !whole.finite() & whole.same(whole) }
 }
 
 /// The same from a pivot that is faint in some lanes, where squares may have lost digits: a rotation after the other.

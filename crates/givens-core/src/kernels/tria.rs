@@ -13,7 +13,7 @@ outlined! {
     /// columns, zeros behind it. What is left of a row after the earlier reflections and is at most
     /// `columns` ε of the row counts as zero: that column of S is zero and uses up no reflection, so that the factor of a
     /// deficient A can be divided by. A pack whose lanes disagree on that reports those with the zero as sick; so are lanes
-    /// with a row whose squares overflow.
+    /// with a row whose squares overflow. Where its products with others do, S is not finite.
     ///
     /// ```
     /// use givens_core::kernels::tria;
@@ -64,8 +64,9 @@ fn reflect<T: Real>(
     let settled = sum_of_squares(&row[..used]);
     let rest = sum_of_squares(&row[used.min(columns)..columns]);
     let bound = T::of(columns as f64 * T::EPSILON);
+    let whole = settled + rest;
     // what overflows is not nothing
-    let mut nothing = rest.le(bound * bound * (settled + rest)) & rest.finite();
+    let mut nothing = rest.le(bound * bound * whole) & whole.finite();
     let (mut norm, mut pivot) = (rest.sqrt(), rest.sqrt());
     let faint = rest.lt(T::of(T::FAINT * T::FAINT));
     if used < columns && faint.any() {
@@ -77,7 +78,7 @@ fn reflect<T: Real>(
         row[used..].fill(T::zero());
         return false;
     }
-    health.note(nothing | (!rest.finite() & rest.same(rest)), i);
+    health.note(nothing | (!whole.finite() & whole.same(whole)), i);
     // v = rest of the row with its head moved away from zero; H = I − v vᵀ / (norm · |v head|)
     let head = row[used];
     let toward = norm.copysign(head);

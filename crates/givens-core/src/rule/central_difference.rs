@@ -41,8 +41,8 @@ impl Rule for CentralDifference {
         self.shape_for(n)
     }
 
-    fn reach(&self, _: usize) -> Option<f64> {
-        Some(self.eta)
+    fn reach(&self, _: usize) -> f64 {
+        self.eta
     }
 
     fn tabulate<T: Real>(&self, _: usize, _: &mut [T]) {}

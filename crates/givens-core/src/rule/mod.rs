@@ -100,8 +100,8 @@ pub trait Rule: Copy {
     /// D is J S with J = ∂g/∂x at the mean, whatever the root.
     const FIRST_ORDER: bool = false;
 
-    /// How far along an axis the points stand from the mean, in standard deviations; none if the rule has no points.
-    fn reach(&self, n: usize) -> Option<f64>;
+    /// How far along an axis the points stand from the mean, in standard deviations; infinite if the rule has no points.
+    fn reach(&self, n: usize) -> f64;
 
     /// Writes the table of nodes and weights, once per filter.
     fn tabulate<T: Real>(&self, n: usize, table: &mut [T]);

@@ -100,10 +100,10 @@ impl<R: PointRule> Rule for R {
     }
 
     /// One standard deviation for a table: its points are near and far.
-    fn reach(&self, n: usize) -> Option<f64> {
+    fn reach(&self, n: usize) -> f64 {
         match self.pairs(n) {
-            Pairs::Axes { radius2, .. } => Some(Real::sqrt(radius2)),
-            Pairs::Table { .. } => Some(1.0),
+            Pairs::Axes { radius2, .. } => Real::sqrt(radius2),
+            Pairs::Table { .. } => 1.0,
         }
     }
 

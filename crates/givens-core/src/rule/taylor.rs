@@ -27,8 +27,8 @@ impl Rule for Taylor {
         self.shape_for(n)
     }
 
-    fn reach(&self, _: usize) -> Option<f64> {
-        None
+    fn reach(&self, _: usize) -> f64 {
+        f64::INFINITY
     }
 
     fn tabulate<T: Real>(&self, _: usize, _: &mut [T]) {}

@@ -6,7 +6,7 @@ use crate::filter::backward::{multiply, multiply_lower};
 use crate::filter::lanes::{endless, lanes};
 use crate::filter::memory::{put_columns, take, vectors_and_matrices};
 use crate::filter::{Fault, Filter, Form, Grow, Learnt, Matrix, Over, StepError};
-use crate::kernels::{add_outer, cholesky_scaled, copy_lower, square, tria};
+use crate::kernels::{add_outer, cholesky_scaled, copy_lower, square_lower, tria};
 use crate::scalar::{Mask, Real};
 use core::marker::PhantomData;
 
@@ -180,7 +180,7 @@ impl<T: Real, B: AsRef<[T]> + AsMut<[T]>> FixedPoint<T, B> {
             let _ = tria(parts.wide, n, 2 * n, 2 * n);
             copy_lower(parts.product, n, parts.wide, 2 * n);
             multiply_lower(parts.factor, n, parts.anchor, parts.product);
-            square(parts.cov, n, parts.factor, n, n);
+            square_lower(parts.cov, n, parts.factor);
             let done = endless(parts.mean, parts.factor, n);
             return done.map(|_| ()).map_err(|fault| filter.fail(fault));
         }

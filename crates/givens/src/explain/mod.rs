@@ -149,8 +149,8 @@ impl Explain<'_> {
             }
             Fault::Indistinct { component } => {
                 let what = format!(
-                    "the std of {} is a few spacings of numbers at its mean, or less: the points of the rule cannot be told \
-                     from each other",
+                    "the std of {} is a few spacings of numbers at its mean, or less: rounding would decide what becomes \
+                     of it",
                     self.state(component)
                 );
                 (what, self.apart(choice))

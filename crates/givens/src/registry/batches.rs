@@ -12,6 +12,7 @@ use std::collections::HashMap;
 
 impl Choice {
     /// Runs a discrete method over many trajectories; see [`Batch::run`]. A continuous one fails at the first row of each.
+    /// In packs go square-root forms, but for central differences.
     pub fn run_batch<M: Transition + Sync, H: Observation + Sync>(
         &self,
         tracks: &[Track<M, H>],
@@ -24,6 +25,7 @@ impl Choice {
     }
 
     /// Runs a continuous method over many trajectories; see [`Batch::run`]. A discrete one fails at the first row of each.
+    /// In packs go square-root forms by Itô–Taylor steps.
     pub fn run_batch_continuous<M: Sde + Sync, H: Observation + Sync>(
         &self,
         tracks: &[Track<M, H>],

@@ -111,7 +111,7 @@ fn together(entry: &Entry, choice: &Choice, settings: &[Setting]) -> Result<(), 
     }
     if choice.precision == Precision::F32 && choice.form == FormName::Covariance {
         let message = format!(
-            "precision = f32: `{name}` is in covariance form, which needs twice the digits of a root"
+            "precision = f32: `{name}` is in covariance form here, which needs twice the digits of a root"
         );
         return refuse(set("precision"), message, "set form = square-root, or leave `precision` out");
     }

@@ -174,7 +174,9 @@ impl<'t, 'm, X: Over<M>, M, H: Observation, T: Real> Recorder<'t, 'm, X, M, H, T
             }
             done?;
         }
-        self.keep();
+        if goal != Goal::Filter {
+            self.keep();
+        }
         Ok(())
     }
 
@@ -185,7 +187,10 @@ impl<'t, 'm, X: Over<M>, M, H: Observation, T: Real> Recorder<'t, 'm, X, M, H, T
         mean.extend(told(self.filter.mean()));
         factor.clear();
         factor.extend(told(self.filter.factor()));
-        write_cov(&self.filter, factor, cov);
+        // a square root is read without
+        if !X::Form::SQUARE_ROOT {
+            write_cov(&self.filter, factor, cov);
+        }
     }
 
     fn write(&mut self, time: f64, out: &mut Estimates) {
@@ -241,7 +246,7 @@ pub(crate) fn write_cov<X: Over<M>, M, T: Real>(
 ) {
     let n = filter.mean().len();
     if X::Form::SQUARE_ROOT {
-        crate::kernels::square(cov, n, factor, n, n);
+        crate::kernels::square_lower(cov, n, factor);
     } else {
         cov.iter_mut().zip(told(filter.carried().cov)).for_each(|(to, x)| *to = x);
     }
@@ -256,7 +261,7 @@ pub(super) fn put<F: Form, T: Real>(out: &mut Estimates, row: usize, belief: &Be
     write(&mut out.factor[square.clone()], belief.factor);
     let cov = &mut out.cov[square.clone()];
     if F::SQUARE_ROOT {
-        crate::kernels::square(cov, n, &out.factor[square], n, n);
+        crate::kernels::square_lower(cov, n, &out.factor[square]);
     } else {
         write(cov, belief.cov);
     }

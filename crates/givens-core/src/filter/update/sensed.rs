@@ -129,7 +129,7 @@ pub(super) fn sense<'a, T: Real, H: Observation, R: Rule>(
         if (!deviation.finite()).all() {
             return bad(Quantity::MeasurementNoise);
         }
-        exact = exact | (deviation.le(T::of(64.0 * T::EPSILON) * size) & there);
+        exact = exact | (deviation.same(T::zero()) & there);
         if (!measurement.z[i].finite()).all() {
             return bad(Quantity::Measurement);
         }

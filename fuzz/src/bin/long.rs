@@ -40,7 +40,12 @@ fn main() -> Result<(), String> {
     let (begin, mut slowest) = (Instant::now(), (0.0, Vec::new()));
     for done in 0..executions {
         if done > 0 && done % (executions / 10).max(1) == 0 {
-            eprintln!("{}: {done} in {:.0} s, {} places", of.name, begin.elapsed().as_secs_f64(), findings.len());
+            eprintln!(
+                "{}: {done} in {:.0} s, {} places",
+                of.name,
+                begin.elapsed().as_secs_f64(),
+                findings.len()
+            );
         }
         let input = mutate(&pool[random.below(pool.len())], of.words, of.longest, &mut random);
         let start = Instant::now();

@@ -122,10 +122,9 @@ fn a_derivative_that_does_not_exist_is_told_with_a_method_that_needs_none() {
 #[test]
 fn a_huge_number_is_written_with_an_exponent() {
     let folder = folder("huge");
-    folder.write("data.csv", "time,z\n1,1e150\n");
-    // by a method without points, which would coincide out there
-    let found = folder.run("filter walk.toml data.csv --method ekf").good();
-    assert!(found.stderr.contains("mean NIS 1.667e299 per") && found.stderr.len() < 300, "{}", found.stderr);
+    folder.write("data.csv", "time,z\n1,1e12\n");
+    let found = folder.run("filter walk.toml data.csv").good();
+    assert!(found.stderr.contains("mean NIS 1.667e23 per") && found.stderr.len() < 300, "{}", found.stderr);
 }
 
 #[test]

@@ -40,12 +40,12 @@ pub(super) fn unit_row<T: Real>(
     bound: T,
     faint: T::Mask,
 ) -> (T::Mask, T) {
-    let mut nothing = T::zero();
+    let mut largest = T::zero();
     for &x in &row[used..end] {
-        nothing = nothing.max(x.abs());
+        largest = largest.max(x.abs());
     }
-    if nothing.same(T::zero()).all() {
-        return (T::Mask::splat(true), nothing);
+    if largest.same(T::zero()).all() {
+        return (T::Mask::splat(true), largest);
     }
     let settled = length(&row[..used], T::zero());
     // a length of few digits is no divisor

@@ -66,7 +66,7 @@ impl<E: Element, X: Over<M>, M, H: Observation> Job<E> for Packed<'_, E, X, M, H
         let sizes = problem::sizes(&method, model)?.with_sensor_in_lanes(sensor, method.rule().shape(n));
         let mut memory = vec![P::zero(); Filter::<X, M, P, &mut [P]>::memory_len(&method, sizes, false)];
         let mut spare = vec![P::zero(); Filter::<X, M, P, &mut [P]>::spare_len(n)];
-        let (mut z, present) = (vec![P::zero(); d], vec![P::Mask::splat(true); d]);
+        let mut z = vec![P::zero(); d];
         let mut last = 0.0;
         for first in (0..tracks).step_by(P::WIDTH) {
             let memory = memory.as_mut_slice();
@@ -83,7 +83,7 @@ impl<E: Element, X: Over<M>, M, H: Observation> Job<E> for Packed<'_, E, X, M, H
                     *z = P::load(&lanes[..P::WIDTH]);
                 }
                 sick = sick | f.predict_lanes(&from, &to, &mut spare);
-                sick = sick | f.update_lanes(sensor, &to, &z, &present);
+                sick = sick | f.update_lanes(sensor, &to, &z, None);
                 if let Some(told) = told.as_deref_mut().filter(|_| tracks == 1) {
                     tell(told, &f, 0);
                 }

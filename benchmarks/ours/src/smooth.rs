@@ -126,7 +126,7 @@ impl<E: Element, X: Over<M>, M, H: Observation> Job<E> for Packed<'_, E, X, M, H
         let mut memory = vec![P::zero(); Filter::<X, M, P, &mut [P]>::memory_len(&method, sizes, true)];
         let mut records = vec![P::zero(); History::<P, &mut [P]>::memory_len(n, steps)];
         let mut spare = vec![P::zero(); Filter::<X, M, P, &mut [P]>::spare_len(n)];
-        let (mut z, present) = (vec![P::zero(); d], vec![P::Mask::splat(true); d]);
+        let mut z = vec![P::zero(); d];
         let mut f = Filter::start_in(method, model, sizes, true, problem.start(), memory.as_mut_slice())?;
         let mut history = History::new(n, X::Form::SQUARE_ROOT, records.as_mut_slice());
         let mut sick = P::Mask::splat(false);
@@ -134,7 +134,7 @@ impl<E: Element, X: Over<M>, M, H: Observation> Job<E> for Packed<'_, E, X, M, H
             let (from, to) = ([dt * k as f64; MAX_WIDTH], [dt * (k + 1) as f64; MAX_WIDTH]);
             z.iter_mut().zip(rows.row(k)).for_each(|(z, &number)| *z = P::of(number));
             sick = sick | history.predict_lanes(&mut f, &from, &to, &mut spare);
-            sick = sick | f.update_lanes(sensor, &to, &z, &present);
+            sick = sick | f.update_lanes(sensor, &to, &z, None);
         }
         if sick.any() {
             return Err(format!("lanes {:b} are sick", sick.bits()).into());

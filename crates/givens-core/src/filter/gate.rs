@@ -57,46 +57,58 @@ impl<X: Over<M>, M, T: Real, B: Grow<T>> Filter<'_, X, M, T, B> {
 }
 
 impl<X: Over<M>, M, P: Pack, B: Grow<P>> Filter<'_, X, M, P, B> {
-    /// Teaches each lane its own measurement, as [`update_lanes`](Self::update_lanes) does, unless νᵀ P_zz⁻¹ ν is above that
-    /// lane's `limit`: the lane then stays as predicted, and its log-likelihood is zero. The answer is the lanes that could
-    /// not take their measurement in, of which nothing is to be used any more, and those beyond their limits.
+    /// Teaches each of the lanes that were `measured` its own measurement, as [`update_lanes`](Self::update_lanes) does, unless
+    /// νᵀ P_zz⁻¹ ν is above that lane's `limit`. The other lanes, and those beyond their limits, stay as predicted to the bit,
+    /// and their log-likelihood is zero. The answer is the lanes that could not take their measurement in, of which nothing is
+    /// to be used any more, and those beyond their limits.
     ///
-    /// `spare` has [`spare_len`](Self::spare_len) packs; without limits it is not used.
+    /// `spare` has [`spare_len`](Self::spare_len) packs; where all lanes are measured and none has a limit it is not used.
     #[inline(always)]
     pub fn update_lanes_gated<H: Observation>(
         &mut self,
         sensor: &H,
         t: &[f64],
         z: &[P],
-        present: &[P::Mask],
+        present: Option<&[P::Mask]>,
+        measured: P::Mask,
         limit: Option<P>,
         spare: &mut [P],
     ) -> (P::Mask, P::Mask) {
-        if limit.is_some() {
+        let nobody = P::Mask::splat(false);
+        if !measured.any() {
+            self.present = 0;
+            self.parts().scores.fill(P::zero());
+            return (nobody, nobody);
+        }
+        let all_stay = measured.all() && limit.is_none();
+        if !all_stay {
             let mut rest = &mut *spare;
             for from in taught(self.parts()) {
                 take(&mut rest, from.len()).copy_from_slice(from);
             }
         }
-        let sick = self.update_lanes(sensor, t, z, present);
-        let Some(limit) = limit else { return (sick, P::Mask::splat(false)) };
-        let beyond = limit.lt(self.parts().scores[0]);
+        let sick = self.update_lanes(sensor, t, z, present) & measured;
+        if all_stay {
+            return (sick, nobody);
+        }
+        let beyond = limit.map_or(nobody, |limit| limit.lt(self.parts().scores[0])) & measured;
+        let as_before = beyond | !measured;
         let mut rest = spare;
         for to in taught(self.parts()) {
             let before = take(&mut rest, to.len());
             for (to, &mut before) in to.iter_mut().zip(before) {
-                *to = P::select(beyond, before, *to);
+                *to = P::select(as_before, before, *to);
             }
         }
         let log_likelihood = &mut self.parts().scores[1];
-        *log_likelihood = P::select(beyond, P::zero(), *log_likelihood);
+        *log_likelihood = P::select(as_before, P::zero(), *log_likelihood);
         (sick, beyond)
     }
 }
 
 /// What an update changes of a filter's memory, but for the innovation.
 #[inline(always)]
-fn taught<T>(parts: Parts<'_, T>) -> [&mut [T]; 6] {
+fn taught<T>(parts: Parts<'_, T>) -> [&mut [T]; 7] {
     let Parts { belief, floor, learnt, .. } = parts;
-    [belief.mean, floor, belief.factor, belief.cov, learnt.shift, learnt.turn]
+    [belief.mean, floor, belief.factor, belief.cov, belief.moved, learnt.shift, learnt.turn]
 }

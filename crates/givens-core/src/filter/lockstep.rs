@@ -56,7 +56,7 @@ impl<X: Over<M>, M, P: Pack, B: Grow<P>> Filter<'_, X, M, P, B> {
     /// Packs of memory that [`predict_lanes`](Self::predict_lanes) needs beside the filter's, for n states.
     #[must_use]
     pub const fn spare_len(states: usize) -> usize {
-        2 * states + 4 * states * states
+        2 * states + 5 * states * states
     }
 
     /// Moves each lane from its own time to its own later one, as [`predict`](Self::predict) moves all; a lane whose times
@@ -81,6 +81,7 @@ impl<X: Over<M>, M, P: Pack, B: Grow<P>> Filter<'_, X, M, P, B> {
         }
         let mut sick = P::Mask::of_bits(refused);
         self.stand_still();
+        self.draw_from_moved();
         for k in 0..plans.longest() {
             let bits = plans.active(k);
             let active = P::Mask::of_bits(bits);
@@ -91,6 +92,7 @@ impl<X: Over<M>, M, P: Pack, B: Grow<P>> Filter<'_, X, M, P, B> {
             }
             match self.one_step(start, length, k > 0) {
                 Ok(more) => sick = sick | (more & active),
+                // nothing of them was moved, nor of those that rest
                 Err(_) => return sick | active,
             }
             if some_rest {
@@ -104,22 +106,25 @@ impl<X: Over<M>, M, P: Pack, B: Grow<P>> Filter<'_, X, M, P, B> {
         sick | !self.all_finite()
     }
 
-    /// Teaches each lane the components of its own measurement that are there, as
-    /// [`update_present`](Self::update_present) does: `present[i]` tells in which lanes component i is. The answer is the
+    /// Teaches each lane its own measurement: as [`update`](Self::update) does, or, where it is said which components are
+    /// there, as [`update_present`](Self::update_present): `present[i]` tells in which lanes component i is. The answer is the
     /// lanes that could not take it in: nothing of them is to be used any more.
     ///
-    /// `t` is the lanes' time; `z` and `present` have the sensor's length. A lane's number where it has no component does
-    /// not matter. The filter must have been started with room for the sensor, by [`Sizes::with_sensor_in_lanes`].
+    /// `t` is the lanes' time; `z` and `present` have the sensor's length. A lane's number where it has no component is
+    /// finite, and does not matter otherwise. What comes of a lane is the same to the bit whatever the others hold: with
+    /// `present`, absent components are taken in as measures that say nothing, also where no lane has them. The filter must have
+    /// been started with room for the sensor, by [`Sizes::with_sensor_in_lanes`].
     #[inline(always)]
     pub fn update_lanes<H: Observation>(
         &mut self,
         sensor: &H,
         t: &[f64],
         z: &[P],
-        present: &[P::Mask],
+        present: Option<&[P::Mask]>,
     ) -> P::Mask {
         let d = sensor.measures();
-        let whole = z.len() == d && present.len() == d && sensor.states() == self.layout.sizes.states;
+        let told = present.is_none_or(|present| present.len() == d);
+        let whole = z.len() == d && told && sensor.states() == self.layout.sizes.states;
         let set = sensor.parameters() <= self.layout.sizes.parameters
             && sensor.controls() <= self.layout.sizes.controls
             && (sensor.controls() == 0 || self.controlled);
@@ -137,10 +142,24 @@ impl<X: Over<M>, M, P: Pack, B: Grow<P>> Filter<'_, X, M, P, B> {
         // where every lane fails, there is no innovation: not that of the row before
         self.present = 0;
         self.parts().scores.fill(P::zero());
-        let Ok(sick) = self.learn(sensor, at, Present::Lanes(present), None) else { return everybody };
+        self.draw_from_moved();
+        let present = present.map_or(Present::All, Present::Lanes);
+        let Ok(sick) = self.learn(sensor, at, present, None) else { return everybody };
+        self.draw_from_moved();
         // a squared innovation that overflows is a fault also where the state is known, and the belief stays
         let scored = self.parts().scores[0].finite();
         sick | !(scored & self.all_finite())
+    }
+
+    /// Whoever draws the points of an update from a root that a prediction has left does so in all lanes, each from its own:
+    /// where there is none, from the factor.
+    #[inline(always)]
+    fn draw_from_moved(&mut self) {
+        if self.layout.moved && !self.moved {
+            let belief = self.parts().belief;
+            belief.moved.copy_from_slice(belief.factor);
+            self.moved = true;
+        }
     }
 
     /// Sets the controls of each lane, which hold until they are set again. False, and nothing done, if there are not as
@@ -186,6 +205,7 @@ impl<X: Over<M>, M, P: Pack, B: Grow<P>> Filter<'_, X, M, P, B> {
             parts.floor,
             parts.belief.factor,
             parts.belief.cov,
+            parts.belief.moved,
             parts.total.gain,
             parts.total.conditional,
         ];
@@ -203,6 +223,7 @@ impl<X: Over<M>, M, P: Pack, B: Grow<P>> Filter<'_, X, M, P, B> {
             parts.floor,
             parts.belief.factor,
             parts.belief.cov,
+            parts.belief.moved,
             parts.total.gain,
             parts.total.conditional,
         ];

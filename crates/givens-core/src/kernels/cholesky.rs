@@ -48,13 +48,14 @@ fn factorise<T: Real>(a: &mut [T], n: usize, rounding: f64, scale: impl Fn(usize
         let own = a[j * n + j];
         let mut rounding = tolerance * scale(j, own);
         let pivot = less_dot(own, &a[j * n..j * n + j], &a[j * n..j * n + j]);
-        if pivot.lt(T::of(1e-3) * own).any() {
+        let cancels = pivot.lt(T::of(1e-3) * own);
+        if cancels.any() {
             let above = errors_above(a, n, j, |k, row| {
                 let own = norm(row);
                 scale(k, own * own).abs().sqrt()
             });
             let sigma = scale(j, own).abs().sqrt() + above;
-            rounding = tolerance * sigma * sigma;
+            rounding = T::select(cancels, tolerance * sigma * sigma, rounding);
         }
         let (head, tail) = a.split_at_mut((j + 1) * n);
         let row = &mut head[j * n..];

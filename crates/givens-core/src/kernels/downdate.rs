@@ -33,8 +33,10 @@ fn downdated<T: Real>(l: &mut [T], n: usize, stride: usize, v: &mut [T]) -> Heal
         let untouched = vk.same(zero);
         let mut own = norm(&l[k * stride..=k * stride + k]);
         let r2 = (pivot - vk) * (pivot + vk);
-        if (!untouched & !(T::of(1e-6) * own * own).lt(r2)).any() {
-            own += errors_above(l, stride, k, |_, row| norm(row));
+        let cancels_much = !untouched & !(T::of(1e-6) * own * own).lt(r2);
+        if cancels_much.any() {
+            let above = errors_above(l, stride, k, |_, row| norm(row));
+            own = T::select(cancels_much, own + above, own);
         }
         let size = pivot.max(vk.abs());
         let rounding = T::of(64.0 * T::EPSILON) * own;

@@ -65,7 +65,7 @@ pub(super) fn from_table<T: Real, G: Map>(
         // the weights sum to one: averaged about the centre or a first average, the sum over many points stays small, and
         // a component without spread has no deviation of rounding
         let about = |near: T| near + even_moment(weights, plus, minus, near);
-        let ybar = about(reference.unwrap_or_else(|| about(T::zero())));
+        let ybar = T::select(level, first, about(reference.unwrap_or_else(|| about(T::zero()))));
         out.mean[i] = ybar;
         for (d, xi) in row.iter_mut().zip(nodes.chunks_exact(count)) {
             // Σ over both points of w y ξ

@@ -11,10 +11,14 @@ use crate::scalar::{Element, InstructionSet, Job, LaneMask, MAX_WIDTH, Mask, Pac
 use crate::smoother::{History, Smoothed};
 use core::ops::ControlFlow;
 
-/// Tracks over one model and its sensors, at most as many as a pack has lanes.
+/// Tracks over one model and its sensors, at most as many as a pack has lanes. What comes of one is the same to the bit whatever
+/// the others are: a lane that takes another way than the others is given back as not served, and one that is a pack's only
+/// track is in all of its lanes.
 pub(super) struct Lockstep<'s, 't, X, M, H> {
     pub method: X,
     pub tracks: &'s [Track<'t, M, H>],
+    /// Whether every measurement has all of its components, in every track.
+    pub whole: bool,
     pub goal: Goal,
     /// Of the gate, as in `Task`.
     pub limits: &'s [f64],
@@ -40,9 +44,10 @@ impl<X: Over<M>, M, H: Observation, E: Element> Job<E> for Lockstep<'_, '_, X, M
 
     #[inline(always)]
     fn run<P: Pack<Element = E>>(self) -> Self::Output {
-        let Self { method, tracks, goal, limits, watch } = self;
+        let Self { method, tracks, whole, goal, limits, watch } = self;
         let nothing = || tracks.iter().map(|_| None).collect();
-        let Some((mut filter, begun)) = begin::<P, X, M, H>(method, tracks, goal) else {
+        let everyone: Vec<_> = tracks.iter().copied().cycle().take(P::WIDTH).collect();
+        let Some((mut filter, begun)) = begin::<P, X, M, H>(method, &everyone, goal) else {
             return nothing();
         };
         let n = filter.mean().len();
@@ -52,23 +57,27 @@ impl<X: Over<M>, M, H: Observation, E: Element> Job<E> for Lockstep<'_, '_, X, M
         let mut history =
             History::<P, Vec<P>>::new(n, true, vec![P::zero(); History::<P, Vec<P>>::memory_len(n, records)]);
         let mut spare = vec![P::zero(); Filter::<X, M, P, Vec<P>>::spare_len(n)];
-        let mut rows = Rows::<P>::begin(tracks, filter.controls(), begun);
+        let mut rows = Rows::<P>::begin(&everyone, filter.controls(), begun);
         let mut lanes = Lanes::<P>::new(tracks, n, goal);
+        let own = u32::MAX >> (u32::BITS as usize - tracks.len());
         for k in 0..longest {
             if watch.stopped() || rows.well == 0 {
                 return nothing();
             }
-            rows.read(tracks, k, limits);
+            rows.read(&everyone, k, limits);
             filter.set_controls_in_lanes(&rows.before);
             let moved = history.predict_lanes(&mut filter, &rows.from, &rows.to, &mut spare);
             lanes.predicted(&filter, k, rows.active);
             filter.set_controls_in_lanes(&rows.after);
-            let (sensors, to, z, present) = (tracks[0].sensors, &rows.to, &rows.z, &rows.present);
+            let (sensors, to, z) = (tracks[0].sensors, &rows.to, &rows.z);
+            let present = (!whole).then_some(&rows.present[..]);
             let limit = (!limits.is_empty()).then_some(rows.limit);
-            let (taught, gated) = filter.update_lanes_gated(sensors, to, z, present, limit, &mut spare);
+            let measured = P::Mask::of_bits(rows.measured);
+            let (taught, gated) =
+                filter.update_lanes_gated(sensors, to, z, present, measured, limit, &mut spare);
             rows.well &= !((moved | taught).bits() & rows.active);
             lanes.updated(&filter, k, &rows.present, rows.active, gated.bits());
-            watch.count(rows.active.count_ones() as usize);
+            watch.count((rows.active & rows.well & own).count_ones() as usize);
             rows.next();
         }
         let mut well = rows.well;
@@ -123,7 +132,7 @@ fn begin<'m, P: Pack, X: Over<M>, M, H: Observation>(
             continue;
         }
         if filter.is_none() {
-            // every lane begins as a track that is well: those without one go along
+            // every lane begins as a track that is well
             let start = Filter::start_in(method, model, sizes, smoothing, prior(track), vec![P::zero(); len]);
             let mut start = start.ok()?;
             (0..P::WIDTH).for_each(|lane| {
@@ -152,6 +161,8 @@ struct Rows<P: Pack> {
     well: u32,
     /// Those of them that have this row.
     active: u32,
+    /// Those of them that have a measurement in it.
+    measured: u32,
 }
 
 impl<P: Pack> Rows<P> {
@@ -172,13 +183,14 @@ impl<P: Pack> Rows<P> {
             after: vec![P::zero(); c],
             well: begun,
             active: 0,
+            measured: 0,
         }
     }
 
     /// Reads row `k` of every track that has one; a lane that has none, or is not well, stays where it is.
     #[inline(always)]
     fn read<M, H: Observation>(&mut self, tracks: &[Track<M, H>], k: usize, limits: &[f64]) {
-        self.active = 0;
+        (self.active, self.measured) = (0, 0);
         self.present.fill(P::Mask::splat(false));
         for (lane, track) in tracks.iter().enumerate() {
             let row = track.data.row(k).filter(|_| self.well >> lane & 1 == 1);
@@ -190,13 +202,13 @@ impl<P: Pack> Rows<P> {
             let Some(row) = row else { continue };
             self.active |= 1 << lane;
             let mut dof = 0;
-            for (i, &z) in row.z.iter().enumerate() {
-                dof += usize::from(!z.is_nan());
+            // where a component is missing, the number before stands for it
+            for (i, &z) in row.z.iter().enumerate().filter(|(_, z)| !z.is_nan()) {
+                dof += 1;
                 self.z[i] = self.z[i].with_lane(lane, P::Element::of(z));
-                if !z.is_nan() {
-                    self.present[i] = self.present[i] | P::Mask::of_bits(1 << lane);
-                }
+                self.present[i] = self.present[i] | P::Mask::of_bits(1 << lane);
             }
+            self.measured |= u32::from(dof > 0) << lane;
             let most = limit(limits, dof).unwrap_or(f64::INFINITY);
             self.limit = self.limit.with_lane(lane, P::Element::of(most));
             for (i, &u) in row.u.iter().enumerate() {

@@ -51,13 +51,15 @@ impl<M, H, D: ?Sized> Copy for Track<'_, M, H, D> {}
 
 /// How a batch is run.
 ///
-/// Each track comes out as alone, but for rounding, and the same to the bit whatever the number of threads; one that fails
-/// does not stop the others, and has the failure that it would have had alone.
+/// Each track comes out as by [`run`](crate::run()), but for rounding, and the same to the bit whatever other tracks are in the
+/// batch, in whatever order, on however many threads; one that fails does not stop the others, and has the failure that it would
+/// have had alone.
 ///
 /// Tracks over one and the same model and sensors go in packs of as many as a vector register holds, each at its own times
 /// and with its own missing components; their functions want `#[inline(always)]`, without which a pack's instructions are
 /// calls. A track goes alone where a pack cannot serve it: solvers that choose their steps, fixed lag and fixed point, times
-/// asked for besides, smoothing in covariance form or by a solver; and wherever the machine has no vectors.
+/// asked for besides, smoothing in covariance form or by a solver; more than 2²⁰/n² rows; and wherever the machine has no vectors.
+/// A pack with one track takes as long as a full one: up to three times as long as that track alone.
 ///
 /// ```
 /// use givens::Data;
@@ -87,7 +89,7 @@ pub struct Batch<'a> {
     pub vectors: InstructionSet,
     /// Cancels the batch when it is set, before the next row of each track.
     pub cancel: Option<&'a AtomicBool>,
-    /// Counts the rows of all tracks as they are taken in, to show how far the batch is. What is done again, alone, counts again.
+    /// Counts the rows of all tracks as they are taken in, to show how far the batch is.
     pub rows: Option<&'a AtomicUsize>,
 }
 
@@ -108,7 +110,9 @@ impl Batch<'_> {
         H: Observation + Sync,
     {
         match gate::limits(method.gate(), widest(tracks)) {
-            Ok(limits) => self.run_with(method, tracks, &limits, |track| self.alone(method, track, &limits)),
+            Ok(limits) => {
+                self.run_with(method, tracks, &limits, |batch, track| batch.alone(method, track, &limits))
+            }
             Err(fault) => refused(fault, tracks, self.goal),
         }
     }
@@ -119,7 +123,7 @@ impl Batch<'_> {
         method: X,
         tracks: &[Track<M, H>],
         limits: &[f64],
-        alone: impl Fn(&Track<M, H>) -> Option<Outcome> + Sync,
+        alone: impl Fn(&Batch, &Track<M, H>) -> Option<Outcome> + Sync,
     ) -> Vec<Option<Outcome>>
     where
         X: Computes<M, Method: Sync> + Sync,
@@ -128,27 +132,37 @@ impl Batch<'_> {
     {
         let by = method.method();
         let width = if packable(&by, self.goal) { lockstep::width::<X::Number>(self.vectors) } else { 1 };
-        let pack = |of: &[Track<M, H>]| {
-            let job = Lockstep { method: by, tracks: of, goal: self.goal, limits, watch: self.watch() };
+        let pack = |batch: &Batch, of: &[Track<M, H>], whole: bool| {
+            let job =
+                Lockstep { method: by, tracks: of, whole, goal: self.goal, limits, watch: batch.watch() };
             self.vectors.run_in_registers::<X::Number, _>(job).unwrap_or_default()
         };
         self.run_by(tracks, width, pack, alone)
     }
 
-    /// Shares the tracks out, in packs of up to `width`. What a pack could not do is done again, alone.
+    /// Shares the tracks out, in packs of up to `width`. What a pack could not do is done again: in a pack of its own, where no
+    /// other lane can disagree with it, then alone.
     pub(crate) fn run_by<M: Sync, H: Sync>(
         &self,
         tracks: &[Track<M, H>],
         width: usize,
-        pack: impl Fn(&[Track<M, H>]) -> Vec<Option<Outcome>> + Sync,
-        alone: impl Fn(&Track<M, H>) -> Option<Outcome> + Sync,
+        pack: impl Fn(&Batch, &[Track<M, H>], bool) -> Vec<Option<Outcome>> + Sync,
+        alone: impl Fn(&Batch, &Track<M, H>) -> Option<Outcome> + Sync,
     ) -> Vec<Option<Outcome>> {
         let units = units(tracks, width);
+        // what is done again was counted
+        let uncounted = Batch { rows: None, ..*self };
         let done = each(&units, self.threads, |unit| {
             let own: Vec<Track<M, H>> = unit.tracks.iter().map(|&k| tracks[k]).collect();
-            let lanes = if own.len() > 1 { pack(&own) } else { Vec::new() };
+            let Some(whole) = unit.whole else { return own.iter().map(|track| alone(self, track)).collect() };
+            let again = |track| {
+                let one = core::slice::from_ref(track);
+                let apart = if own.len() > 1 { pack(&uncounted, one, whole).pop().flatten() } else { None };
+                apart.or_else(|| alone(&uncounted, track))
+            };
+            let lanes = pack(self, &own, whole);
             let lanes = lanes.into_iter().chain(core::iter::repeat_with(|| None));
-            own.iter().zip(lanes).map(|(track, lane)| lane.or_else(|| alone(track))).collect::<Vec<_>>()
+            own.iter().zip(lanes).map(|(track, lane)| lane.or_else(|| again(track))).collect::<Vec<_>>()
         });
         let mut outcomes: Vec<Option<Outcome>> = tracks.iter().map(|_| None).collect();
         for (unit, done) in units.iter().zip(done) {

@@ -107,37 +107,27 @@ impl<P: Pack> Lanes<P> {
         present: &[P::Mask],
         active: u32,
     ) {
-        let (d, rows) = (self.measures, innovation.nu.len());
-        if rows == 0 {
+        let d = self.measures;
+        // no lane has a measurement, or none took it in
+        if innovation.nu.len() < d {
             return;
         }
-        square(&mut matrix[..rows * rows], rows, innovation.factor, rows, rows);
+        square(&mut matrix[..d * d], d, innovation.factor, d, d);
         let (mut nu, mut cov) = ([P::Element::zero(); MAX_WIDTH], [P::Element::zero(); MAX_WIDTH]);
         let there = |i: usize| present[i].bits() & active;
-        // a row of the innovation for each component that any lane has
-        let mut row = 0;
         for i in 0..d {
-            if present[i].bits() == 0 {
-                continue;
-            }
-            innovation.nu[row].store(&mut nu);
+            innovation.nu[i].store(&mut nu);
             for (lane, out) in self.of.iter_mut().enumerate().filter(|(lane, _)| there(i) >> lane & 1 == 1) {
                 out.innovation[k * d + i] = nu[lane].first();
                 out.nis_dof[k] += 1;
             }
-            let mut column = 0;
             for j in 0..d {
-                if present[j].bits() == 0 {
-                    continue;
-                }
-                matrix[row * rows + column].store(&mut cov);
+                matrix[i * d + j].store(&mut cov);
                 let both = there(i) & there(j);
                 for (lane, out) in self.of.iter_mut().enumerate().filter(|(lane, _)| both >> lane & 1 == 1) {
                     out.innovation_cov[k * d * d + i * d + j] = cov[lane].first();
                 }
-                column += 1;
             }
-            row += 1;
         }
         innovation.nis.store(&mut nu);
         innovation.log_likelihood.store(&mut cov);

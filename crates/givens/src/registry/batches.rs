@@ -52,12 +52,12 @@ impl Choice {
             Ok(limits) => limits,
             Err(fault) => return refused(fault, tracks, batch.goal),
         };
-        let alone = |track: &Track<AnyTransition, AnyObservation>| {
+        let alone = |batch: &Batch, track: &Track<AnyTransition, AnyObservation>| {
             self.discrete(Alone { track, batch, limits }).ok().flatten()
         };
         match self.packed(OneTransition) {
             Some(packed) => self.in_packs(packed, tracks, batch, limits, alone),
-            None => batch.run_by(tracks, 1, |_| Vec::new(), alone),
+            None => batch.run_by(tracks, 1, |_, _, _| Vec::new(), alone),
         }
     }
 
@@ -73,12 +73,12 @@ impl Choice {
             Ok(limits) => limits,
             Err(fault) => return refused(fault, tracks, batch.goal),
         };
-        let alone = |track: &Track<AnySde, AnyObservation>| {
+        let alone = |batch: &Batch, track: &Track<AnySde, AnyObservation>| {
             self.continuous(Alone { track, batch, limits }).ok().flatten()
         };
         match self.ito_taylor().and_then(|time| self.packed(time)) {
             Some(packed) => self.in_packs(packed, tracks, batch, limits, alone),
-            None => batch.run_by(tracks, 1, |_| Vec::new(), alone),
+            None => batch.run_by(tracks, 1, |_, _, _| Vec::new(), alone),
         }
     }
 }
@@ -90,7 +90,7 @@ impl Choice {
         tracks: &[Track<M, H>],
         batch: &Batch,
         limits: &[f64],
-        alone: impl Fn(&Track<M, H>) -> Option<Outcome> + Sync,
+        alone: impl Fn(&Batch, &Track<M, H>) -> Option<Outcome> + Sync,
     ) -> Vec<Option<Outcome>>
     where
         U: TimeUpdate<M> + Sync,

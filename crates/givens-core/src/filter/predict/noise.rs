@@ -13,7 +13,7 @@ use crate::rule::{Rule, Shape, Spread, spread_scratch};
 use crate::scalar::{Dual2, Mask, Real, as_duals};
 
 /// [D E N] in the making. Columns of N that are zero are left out: they would cost as much as others.
-pub(super) struct Stacked<'a, T> {
+pub(super) struct Stacked<'a, T: Real> {
     /// m⁻, and below it the mean of the entries of an n × q matrix that multiplies the noise, if it moves with the state.
     pub mean: &'a mut [T],
     /// How these entries spread, rows of length `width` and `lost`.
@@ -26,6 +26,8 @@ pub(super) struct Stacked<'a, T> {
     columns: usize,
     /// The sum of the magnitudes of N: finite if all of it is.
     size: T,
+    /// The lanes that have a column of zeros because others have one that is not zero.
+    uneven: T::Mask,
     /// The negative columns of E, n rows of `all_lost`, of which the rule's own are the first.
     minus: &'a mut [T],
     lost: usize,
@@ -86,7 +88,8 @@ impl<'a, T: Real> Stacked<'a, T> {
             put_columns(minus, all_lost, 0, own_lost, lost);
             entries = (below, below_lost);
         }
-        Ok(Self { mean, entries, dev, stride, width, columns: width, size: T::zero(), minus, lost, all_lost })
+        let (size, uneven) = (T::zero(), T::Mask::splat(false));
+        Ok(Self { mean, entries, dev, stride, width, columns: width, size, uneven, minus, lost, all_lost })
     }
 
     /// Adds the columns of a matrix n × q that the state does not move.
@@ -114,7 +117,8 @@ impl<'a, T: Real> Stacked<'a, T> {
         }
     }
 
-    /// Adds a column unless it is zero in every lane.
+    /// Adds a column unless it is zero in every lane. Where it is in some, these are to be served alone: what is computed of a
+    /// lane does not depend on the others.
     #[inline(always)]
     fn column(&mut self, of: impl Fn(usize) -> T) {
         let mut sum = T::zero();
@@ -123,7 +127,11 @@ impl<'a, T: Real> Stacked<'a, T> {
             row[self.columns] = x;
             sum += x.abs();
         }
-        self.columns += usize::from(!sum.same(T::zero()).all());
+        let nothing = sum.same(T::zero());
+        if !nothing.all() {
+            self.columns += 1;
+            self.uneven = self.uneven | nothing;
+        }
         self.size += sum;
     }
 
@@ -135,7 +143,7 @@ impl<'a, T: Real> Stacked<'a, T> {
         back: Option<&mut Backward<T>>,
         scratch: &mut [T],
     ) -> Result<T::Mask, Fault> {
-        let Self { mean, dev, columns, stride, width, size, minus, all_lost, .. } = self;
+        let Self { mean, dev, columns, stride, width, size, uneven, minus, all_lost, .. } = self;
         // a power of a long step overflows where no number of the model does
         let endless = !size.finite();
         if endless.all() {
@@ -145,7 +153,7 @@ impl<'a, T: Real> Stacked<'a, T> {
         }
         let mean = &mean[..belief.mean.len()];
         let moved = Moved { mean, dev, columns, stride, minus, lost: all_lost };
-        Ok(settle::<T, F>(moved, belief, back, scratch)? | endless)
+        Ok(settle::<T, F>(moved, belief, back, scratch)? | endless | uneven)
     }
 }
 

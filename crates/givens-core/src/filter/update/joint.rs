@@ -40,19 +40,19 @@ pub(super) fn joint<T: Real>(
     for i in 0..d {
         noise[i * wide..][..rest].copy_from_slice(&sensed.dev[i * stride + n..][..rest]);
     }
-    let sick = if plain(noise, wide, rest, sensed) {
-        for (i, row) in noise.chunks_exact_mut(wide).enumerate() {
-            let deviation = row[sensed.bends + i].abs();
-            row.fill(T::zero());
-            row[i] = deviation;
-        }
-        T::Mask::splat(false)
-    } else {
-        tria(noise, d, rest, wide).sick
-    };
+    let plain = plain(noise, wide, rest, sensed);
+    let sick = if plain.all() { T::Mask::splat(false) } else { tria(noise, d, rest, wide).sick & !plain };
     block.fill(T::zero());
     for i in 0..d {
-        block[i * size..][..d].copy_from_slice(&noise[i * wide..][..d]);
+        let own = sensed.dev[i * stride + n + sensed.bends..].get(i).map_or(T::zero(), |own| own.abs());
+        if plain.all() {
+            block[i * size + i] = own;
+        } else {
+            for j in 0..=i {
+                let alone = if j == i { own } else { T::zero() };
+                block[i * size + j] = T::select(plain, alone, noise[i * wide + j]);
+            }
+        }
         block[i * size + d..][..n].copy_from_slice(&sensed.dev[i * stride..][..n]);
     }
     if below != Below::Unit {
@@ -65,25 +65,27 @@ pub(super) fn joint<T: Real>(
     sick | sweep(block, d, n, scratch).sick
 }
 
-/// Whether S_R is diagonal, and E below the rounding of every R_ij: linear measures of independent noise. [E S_R] is then
-/// triangular as it stands, but for rounding.
+/// The lanes in which S_R is diagonal, and E below the rounding of every R_ij: linear measures of independent noise. [E S_R] is
+/// then triangular as it stands, but for rounding.
 #[inline(always)]
-fn plain<T: Real>(noise: &[T], wide: usize, rest: usize, sensed: &Sensed<T>) -> bool {
+fn plain<T: Real>(noise: &[T], wide: usize, rest: usize, sensed: &Sensed<T>) -> T::Mask {
     let (d, bends) = (sensed.d, sensed.bends);
+    let (mut plain, none) = (T::Mask::splat(true), T::Mask::splat(false));
     for (i, row) in noise.chunks_exact(wide).take(d).enumerate() {
         let (bent, root) = row[..rest].split_at(bends);
-        let Some(&deviation) = root.get(i) else { return false };
+        let Some(&deviation) = root.get(i) else { return none };
         // of two such rows the product is below ε √(R_ii R_jj)
         let bound = T::of(Real::sqrt(0.01 * T::EPSILON)) * deviation.abs();
         // most measures that are bent show it at once
-        if !bent.first().is_none_or(|x| x.abs().le(bound).all()) {
-            return false;
+        if !bent.first().is_none_or(|x| x.abs().le(bound).any()) {
+            return none;
         }
         let size = plus_magnitudes(T::zero(), bent);
         let beside = plus_magnitudes(plus_magnitudes(T::zero(), &root[..i]), &root[i + 1..]);
-        if !(size.le(bound) & beside.same(T::zero())).all() {
-            return false;
+        plain = plain & size.le(bound) & beside.same(T::zero());
+        if !plain.any() {
+            return none;
         }
     }
-    true
+    plain
 }

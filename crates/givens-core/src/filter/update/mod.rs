@@ -38,7 +38,7 @@ pub(crate) enum Present<'a, T: Real> {
     All,
     /// In every lane the same.
     Some(&'a [bool]),
-    /// In each lane its own.
+    /// In each lane its own. All are counted, also those that no lane has.
     Lanes(&'a [T::Mask]),
 }
 
@@ -50,6 +50,15 @@ impl<T: Real> Present<'_, T> {
             Self::All => T::Mask::splat(true),
             Self::Some(present) => T::Mask::splat(present[i]),
             Self::Lanes(masks) => masks[i],
+        }
+    }
+
+    /// Whether component `i` has a row of its own.
+    #[inline(always)]
+    pub fn counts(&self, i: usize) -> bool {
+        match self {
+            Self::All | Self::Lanes(_) => true,
+            Self::Some(present) => present[i],
         }
     }
 }
@@ -80,7 +89,7 @@ pub(crate) const fn update_scratch(
 
 /// What an update found. Nothing is changed yet but the innovation.
 pub(crate) struct Updated<'a, T: Real> {
-    /// Components that were there, in one lane at least.
+    /// Components that were counted.
     pub present: usize,
     /// The lanes in which one of them had no more noise than rounding.
     pub exact: T::Mask,

@@ -13,7 +13,7 @@ use crate::scalar::{Mask, Real};
 
 /// Z = [D E S_R] and the negative columns, rows of the present components only.
 pub(super) struct Sensed<'a, T: Real> {
-    /// Number of components present, in one lane at least.
+    /// Number of components, of which none is absent in all lanes but for [`Present::Lanes`].
     pub d: usize,
     /// Their number in each lane.
     pub dof: T,
@@ -33,8 +33,7 @@ pub(super) struct Sensed<'a, T: Real> {
 impl<T: Real> Measurement<'_, T> {
     /// A fault of the present components, numbered as in the whole measurement.
     pub fn in_whole(&self, fault: Fault) -> Fault {
-        let there = |&k: &usize| self.present.lanes(k).any();
-        let whole = |i: usize| (0..self.z.len()).filter(there).nth(i).unwrap_or(i);
+        let whole = |i: usize| (0..self.z.len()).filter(|&k| self.present.counts(k)).nth(i).unwrap_or(i);
         match fault {
             Fault::SingularInnovation { measure } => Fault::SingularInnovation { measure: whole(measure) },
             Fault::NotFinite { quantity: Quantity::Innovation, component } => {
@@ -55,8 +54,9 @@ pub(super) const fn sense_scratch(n: usize, d: usize, r: usize, shape: Shape) ->
 
 /// Predicts the measurement and compares; the rest of `scratch` is left for the update.
 ///
-/// A component that is absent in some lanes only is, in these, a measure of pure unit noise that says what was expected: it
-/// teaches nothing, and its pivot is one. That noise needs a column of its own, for which the caller counts in `r`.
+/// Of lanes with components of their own, an absent one is a measure of pure unit noise that says what was expected: it teaches
+/// nothing, and its pivot is one. That noise needs a column of its own, for which the caller counts in `r`; it has one also
+/// where no lane needs it, so that what is computed in a lane does not depend on the others.
 #[inline(always)]
 pub(super) fn sense<'a, T: Real, H: Observation, R: Rule>(
     rule: &R,
@@ -71,13 +71,11 @@ pub(super) fn sense<'a, T: Real, H: Observation, R: Rule>(
     let (n, all) = (belief.mean.len(), h.measures());
     let shape = rule.shape(n);
     let r = h.noise().columns(all);
-    let partly = |i: &usize| {
-        let there = measurement.present.lanes(*i);
-        there.any() && !there.all()
-    };
     let filled = n + shape.plus + r;
-    let whole = matches!(measurement.present, Present::All);
-    let stride = if whole { filled } else { filled + (0..all).filter(partly).count() };
+    let partly = matches!(measurement.present, Present::Lanes(_));
+    // all rows stay where they are, and their number is known beforehand
+    let whole = partly || matches!(measurement.present, Present::All);
+    let stride = if partly { filled + all } else { filled };
     let dev = take(scratch, all * stride);
     let minus = take(scratch, all * shape.minus);
     let root = take(scratch, all * r);
@@ -90,19 +88,14 @@ pub(super) fn sense<'a, T: Real, H: Observation, R: Rule>(
     let sick = lanes(h.noise_root(at, root), Matrix::MeasurementNoise)?;
 
     let (mut d, mut dof, mut exact) = (0, T::zero(), T::Mask::splat(false));
-    let mut unit = filled;
     for i in 0..all {
-        // of a whole measurement all rows stay where they are, and their number is known beforehand
         let row = if whole { i } else { d };
-        let there = measurement.present.lanes(i);
-        if !there.any() {
+        if !measurement.present.counts(i) {
             continue;
         }
-        if stride > filled {
-            dev[i * stride + filled..(i + 1) * stride].fill(T::zero());
-        }
-        let partly = !there.all();
+        let there = measurement.present.lanes(i);
         if partly {
+            dev[i * stride + filled..(i + 1) * stride].fill(T::zero());
             for part in [
                 &mut dev[i * stride..i * stride + n + shape.plus],
                 &mut minus[i * shape.minus..(i + 1) * shape.minus],
@@ -113,8 +106,7 @@ pub(super) fn sense<'a, T: Real, H: Observation, R: Rule>(
                     *x = T::select(there, *x, T::zero());
                 }
             }
-            dev[i * stride + unit] = T::select(there, T::zero(), T::one());
-            unit += 1;
+            dev[i * stride + filled + i] = T::select(there, T::zero(), T::one());
         }
         let bad = |quantity| Err(Fault::NotFinite { quantity, component: i });
         let spread = &dev[i * stride..i * stride + n + shape.plus];

@@ -58,6 +58,16 @@ Examples:
   givens simulate turn.toml --times radar.csv --seed 1    the rows of a table
   givens simulate swing.toml --until 9 --every 0.3 --substeps 32 --seed 1")]
     Simulate(SimulateArgs),
+    /// Cut tables into Parquet files that hold whole tracks
+    #[command(after_help = "\
+The rows of a file are held in memory at once, and some 100 bytes for each
+track; all rows lie in temporary files meanwhile (TMPDIR).
+
+Examples:
+  givens partition reports.csv --by track_id -o fleet
+  givens partition 'days/*.parquet' --by ship -o fleet --rows 2000000
+  givens smooth ship.toml fleet -o smoothed    each file by itself, on all cores")]
+    Partition(PartitionArgs),
     /// Run several methods over the same data, side by side
     #[command(after_help = "Examples:
   givens compare turn.toml radar.csv --methods ekf,sr-ukf,ckf --truth truth.csv
@@ -89,7 +99,7 @@ A folder may take the pages of several calls, also at once: its index lists all 
 }
 
 /// The model and how to run it.
-#[derive(Debug, ClapArgs)]
+#[derive(Clone, Debug, ClapArgs)]
 pub struct ModelArgs {
     /// Model file (TOML)
     pub model: String,
@@ -98,7 +108,7 @@ pub struct ModelArgs {
     pub params: Vec<String>,
 }
 
-#[derive(Debug, ClapArgs)]
+#[derive(Clone, Debug, ClapArgs)]
 pub struct MethodArgs {
     /// Method by its registry name (see `givens methods`); without it, that of the file, or sr-ckf (sr-cd-ckf for a
     /// continuous model)
@@ -115,6 +125,18 @@ pub enum FormatArg {
     Csv,
     /// One JSON object per row, with all matrices, in numbers that read back exactly
     Jsonl,
+    /// The columns of the CSV, or others by --layout
+    Parquet,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum LayoutArg {
+    /// The columns of the CSV
+    Wide,
+    /// These, and of each row the lower triangle of its covariance
+    Covariances,
+    /// A row for each state: its mean and standard deviation
+    Tidy,
 }
 
 /// How the path of a continuous model is followed.
@@ -126,11 +148,12 @@ pub enum SchemeArg {
     EulerMaruyama,
 }
 
-#[derive(Debug, ClapArgs)]
+#[derive(Clone, Debug, ClapArgs)]
 pub struct FilterArgs {
     #[command(flatten)]
     pub model: ModelArgs,
-    /// Table of measurements (CSV: time, measures; sensor, track_id, u_… if any), `-` for standard input
+    /// Table of measurements (CSV or Parquet: time, measures; sensor, track_id, u_… if any), `-` for CSV from standard
+    /// input
     pub data: String,
     #[command(flatten)]
     pub method: MethodArgs,
@@ -146,6 +169,9 @@ pub struct FilterArgs {
     /// How to write; from the name of the output, else csv
     #[arg(long, value_enum)]
     pub format: Option<FormatArg>,
+    /// The columns of a Parquet file
+    #[arg(long, value_enum)]
+    pub layout: Option<LayoutArg>,
     /// Draw the track, the states and NIS, through rows and the times of --at; given again, to another file too
     #[arg(long = "plot", value_name = "FILE.svg|png")]
     pub plots: Vec<PathBuf>,
@@ -212,6 +238,22 @@ pub struct SimulateArgs {
     /// Where to write the true states
     #[arg(long, value_name = "FILE")]
     pub states: Option<PathBuf>,
+}
+
+#[derive(Debug, ClapArgs)]
+pub struct PartitionArgs {
+    /// Tables (CSV or Parquet) with the same columns; folders and patterns of them
+    #[arg(required = true)]
+    pub data: Vec<String>,
+    /// The column that names the track of each row
+    #[arg(long, value_name = "COLUMN")]
+    pub by: String,
+    /// The folder of the files
+    #[arg(long, short, value_name = "FOLDER")]
+    pub output: PathBuf,
+    /// Rows that a file has at least
+    #[arg(long, value_name = "ROWS", default_value_t = 1_000_000, value_parser = whole)]
+    pub rows: usize,
 }
 
 #[derive(Debug, ClapArgs)]

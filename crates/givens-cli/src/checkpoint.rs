@@ -6,7 +6,8 @@ use crate::message::{Stop, say};
 use crate::plan::Plan;
 use core::time::Duration;
 use givens::batch::InstructionSet;
-use givens_io::{Format, Identity, Journal};
+use givens::registry::Choice;
+use givens_io::{Format, Identity, Journal, Model};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::io;
@@ -93,6 +94,21 @@ impl Checkpoint {
             say(&format!("the checkpoint, which is not needed any more, could not be removed: {error}"));
         }
     }
+}
+
+/// Everything on which the numbers of a run over many files depend, but for the files.
+pub fn of_files(args: &FilterArgs, model: &Model, choice: &Choice, task: &str) -> Identity {
+    let of = [
+        ("version of givens", env!("CARGO_PKG_VERSION").to_owned()),
+        ("machine", format!("{:?}", InstructionSet::best())),
+        ("model file", model.fingerprint()),
+        ("parameters", args.model.params.join(" ")),
+        ("method", format!("{choice:?}")),
+        ("data", args.data.clone()),
+        ("task", format!("{task} {:?}", args.at)),
+        ("format", format!("{:?} {:?}", args.format, args.layout)),
+    ];
+    of.map(|(name, value)| (name.to_owned(), value)).into()
 }
 
 /// Everything on which the numbers of a run depend; `task` is what it is to find out.

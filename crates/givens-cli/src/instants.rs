@@ -55,6 +55,7 @@ impl Instants {
             tracks,
             ignored: Vec::new(),
             has_track_id: plan.tracks.has_track_id,
+            whole_ids: plan.tracks.whole_ids,
             has_sensor: false,
             ranges: Vec::new(),
             fingerprint: String::new(),

@@ -41,6 +41,7 @@ fn main() -> ExitCode {
         args::Command::Smooth(args) => commands::filter::smooth(&args),
         args::Command::Simulate(args) => commands::simulate::simulate(&args),
         args::Command::Compare(args) => commands::compare::compare(&args),
+        args::Command::Partition(args) => commands::partition::partition(&args),
         args::Command::Methods => commands::methods::methods(),
         args::Command::Reproduce(args) => commands::reproduce::reproduce(&args),
         args::Command::Check(args) => commands::check::check(&args),

@@ -25,6 +25,16 @@ impl Progress {
         Self { bar }
     }
 
+    /// The same over files.
+    pub fn of_files(files: usize) -> Self {
+        let new = Self::new(files);
+        if let Ok(style) = ProgressStyle::with_template("{bar:40} {human_pos}/{human_len} files, {eta} left")
+        {
+            new.bar.set_style(style);
+        }
+        new
+    }
+
     /// Does work that counts its rows, and shows how many there are while it takes long.
     pub fn during<T>(&self, work: impl FnOnce(&AtomicUsize) -> T) -> T {
         let (bar, rows) = (&self.bar, &AtomicUsize::new(0));

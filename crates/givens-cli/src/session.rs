@@ -30,6 +30,8 @@ pub struct Manner<'a> {
     pub whole: bool,
     /// Whether a report is made, which judges the innovations.
     pub judged: bool,
+    /// Where the rows of several tables are counted, in place of a progress of its own.
+    pub counted: Option<&'a AtomicUsize>,
 }
 
 /// What came of a portion of the tracks: answers, those at the times of `--at`, failures, and the sums so far.
@@ -65,7 +67,7 @@ impl Session {
         mut kept: Option<&mut Checkpoint>,
     ) -> Result<Self, Stop> {
         let mut session = Self::new(plan, goals, manner);
-        Progress::new(rows(plan)).during(|count| {
+        shown(rows(plan), manner, |count| {
             let mut done = done.into_iter();
             for portion in portions(plan, goals) {
                 if let Some((answers, at, failures, sums)) = done.next() {
@@ -101,7 +103,7 @@ impl Session {
         take: Take,
     ) -> Result<Self, Stop> {
         let mut session = Self::new(plan, goals, manner);
-        Progress::new(rows(plan)).during(|count| {
+        shown(rows(plan), manner, |count| {
             for portion in portions(plan, goals) {
                 let tracks = portion.tracks.clone();
                 session.portion(plan, choice, portion, manner, count)?;
@@ -193,6 +195,14 @@ impl Session {
             counts: None,
         };
         (0..self.answers.len()).map(one).collect()
+    }
+}
+
+/// Does work that counts its rows, and shows how many there are, unless they are counted elsewhere.
+pub fn shown<T>(rows: usize, manner: Manner, work: impl FnOnce(&AtomicUsize) -> T) -> T {
+    match manner.counted {
+        Some(count) => work(count),
+        None => Progress::new(rows).during(work),
     }
 }
 

@@ -7,8 +7,7 @@ use crate::files::Output;
 use crate::instants::Instants;
 use crate::message::{Stop, say};
 use crate::plan::Plan;
-use crate::progress::Progress;
-use crate::session::Manner;
+use crate::session::{Manner, shown};
 use crate::sums::Sums;
 use crate::thin::Thinned;
 use crate::trajectory::Trajectory;
@@ -16,7 +15,7 @@ use core::num::NonZeroUsize;
 use core::ops::ControlFlow;
 use givens::batch::Track;
 use givens::{Estimates, Finished, Goal, Mark, Sink, Source, Stream};
-use givens_io::{AnswerWriter, Dynamics, Format, Part, Tracks, Written};
+use givens_io::{AnswerWriter, Answers, Dynamics, Format, Layout, Part, Tracks, Written};
 use serde::{Deserialize, Serialize};
 use std::io::{self, ErrorKind, Write};
 
@@ -29,6 +28,7 @@ const KEPT: usize = 1024;
 pub struct Streaming<'p> {
     plan: &'p Plan,
     goal: Goal,
+    manner: Manner<'p>,
     at: Option<&'p Instants>,
     writer: AnswerWriter<'p>,
     come: Come,
@@ -60,7 +60,7 @@ impl<'p> Streaming<'p> {
         plan: &'p Plan,
         goal: Goal,
         manner: Manner<'p>,
-        format: Format,
+        (format, layout): (Format, Layout),
         drawn: bool,
     ) -> Result<Self, Stop> {
         let (rows, begin) = (&plan.tracks.tracks[0].rows, &plan.beginnings[0]);
@@ -75,9 +75,9 @@ impl<'p> Streaming<'p> {
         }
         let (smoothed, threads) = (goal != Goal::Filter, manner.threads);
         let (model, tracks, gated) = (&plan.model, &plan.tracks, plan.choice.gate.is_some());
-        let writer = AnswerWriter { format, model, tracks, smoothed, gated, threads };
+        let writer = AnswerWriter { format, layout, model, tracks, smoothed, gated, threads };
         let come = Come { thinned, sums: Sums::new(plan, manner.judged), ..Come::default() };
-        Ok(Self { plan, goal, at: manner.at, writer, come, failure: None, stop: None })
+        Ok(Self { plan, goal, manner, at: manner.at, writer, come, failure: None, stop: None })
     }
 
     /// Runs, from where another run stands if one does, and writes the answers; what is `kept` is brought up to date on the way.
@@ -97,18 +97,26 @@ impl<'p> Streaming<'p> {
         let at = self.at.map_or(Vec::new(), |at| at.of(0));
         let tracks = self.at.map(|at| at.tracks(plan));
         let mut marks = Vec::new();
-        match from {
-            Some(stand) => (self.come, marks) = (stand.come, stand.marks),
-            None => {
-                AnswerWriter { tracks: tracks.as_ref().unwrap_or(&plan.tracks), ..self.writer }
-                    .header(out)?;
+        let writer = AnswerWriter { tracks: tracks.as_ref().unwrap_or(&plan.tracks), ..self.writer };
+        let mut answers = match from {
+            Some(stand) => {
+                (self.come, marks) = (stand.come, stand.marks);
+                writer.behind()
             }
-        }
+            None => writer.begin(out)?,
+        };
         let (model, sensors, prior) = (&plan.model, &plan.model.observation, &plan.beginnings[0].prior);
-        let (goal, threads) = (self.goal, self.writer.threads);
-        let mut desk =
-            Desk { run: self, out, tracks: tracks.as_ref(), kept, marks: marks.clone(), done: Ok(()) };
-        let ended = Progress::new(data.len()).during(|count| {
+        let (goal, threads, manner) = (self.goal, self.writer.threads, self.manner);
+        let mut desk = Desk {
+            run: self,
+            out,
+            answers: &mut answers,
+            tracks: tracks.as_ref(),
+            kept,
+            marks: marks.clone(),
+            done: Ok(()),
+        };
+        let ended = shown(data.len(), manner, |count| {
             let by = Stream { goal, hold, threads, cancel: None, rows: Some(count), from: &marks };
             match &model.dynamics {
                 Dynamics::Discrete(model) => {
@@ -131,10 +139,10 @@ impl<'p> Streaming<'p> {
         if self.come.sums.rows == 0 && done.is_ok() {
             // the rows before the belief holds have their empty lines all the same
             let nothing = Estimates::default();
-            done =
-                self.write(out, &Finished { first: 0, estimates: &nothing, at: &nothing }, tracks.as_ref());
+            let none = Finished { first: 0, estimates: &nothing, at: &nothing };
+            done = self.write(&mut answers, out, &none, tracks.as_ref());
         }
-        done.and_then(|()| out.flush())
+        done.and_then(|()| answers.end(out))
     }
 
     /// How many of its rows a run of n states and d measures holds at once.
@@ -155,7 +163,13 @@ impl<'p> Streaming<'p> {
         if is_kept { hold.min(together) } else { hold }
     }
 
-    fn write(&mut self, out: &mut dyn Write, finished: &Finished, at: Option<&Tracks>) -> io::Result<()> {
+    fn write(
+        &mut self,
+        answers: &mut Answers,
+        out: &mut dyn Write,
+        finished: &Finished,
+        at: Option<&Tracks>,
+    ) -> io::Result<()> {
         let (begun, times) = self.come.written;
         if let Some(tracks) = at {
             let part = Part {
@@ -166,7 +180,7 @@ impl<'p> Streaming<'p> {
                 estimates: finished.at,
             };
             self.come.written.1 += finished.at.len();
-            return AnswerWriter { tracks, ..self.writer }.rows(out, &[part]);
+            return answers.rows(out, &[part]);
         }
         let begin = &self.plan.beginnings[0];
         let row = begin.row + finished.first;
@@ -178,9 +192,9 @@ impl<'p> Streaming<'p> {
         // the rows before the belief holds may be many
         let mut empty = (from..row).step_by(KEPT).map(|from| (from, (from + KEPT).min(row)));
         empty.try_for_each(|(from, row)| {
-            self.writer.rows(out, &[Part { track, from, row, started: false, estimates: &nothing }])
+            answers.rows(out, &[Part { track, from, row, started: false, estimates: &nothing }])
         })?;
-        self.writer.rows(out, &[Part { track, from: row, row, started, estimates: finished.estimates }])
+        answers.rows(out, &[Part { track, from: row, row, started, estimates: finished.estimates }])
     }
 
     /// Adds rows to what is told of them, and drawn.
@@ -221,20 +235,21 @@ impl<'p> Streaming<'p> {
 }
 
 /// Where the rows of a run are taken in.
-struct Desk<'d, 'p> {
+struct Desk<'d, 'p, 'a> {
     run: &'d mut Streaming<'p>,
     out: &'d mut dyn Output,
+    answers: &'d mut Answers<'a>,
     tracks: Option<&'d Tracks>,
     kept: Option<&'d mut Checkpoint>,
     marks: Vec<Mark>,
     done: io::Result<()>,
 }
 
-impl Sink for Desk<'_, '_> {
+impl Sink for Desk<'_, '_, '_> {
     fn take(&mut self, finished: Finished) -> ControlFlow<()> {
         self.run.add(&finished);
         if self.done.is_ok() {
-            self.done = self.run.write(self.out, &finished, self.tracks);
+            self.done = self.run.write(self.answers, self.out, &finished, self.tracks);
         }
         match &self.done {
             Err(error) if error.kind() != ErrorKind::BrokenPipe => ControlFlow::Break(()),

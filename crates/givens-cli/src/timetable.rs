@@ -40,6 +40,7 @@ pub fn regular(model: &Model, args: &SimulateArgs) -> Result<Tracks, Stop> {
         tracks: vec![track],
         ignored: vec![],
         has_track_id: false,
+        whole_ids: false,
         has_sensor: apart,
         ranges: vec![],
         fingerprint: String::new(),

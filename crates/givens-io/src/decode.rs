@@ -14,6 +14,7 @@ use arrow_schema::{DataType, TimeUnit};
 /// What a column is to us.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Kind {
+    /// Numbers, and truth values as 0 and 1.
     Number,
     /// Whole numbers, which may name things.
     Whole,
@@ -21,7 +22,9 @@ pub enum Kind {
     Unsigned,
     /// Dates since 1970, and whether they are in UTC.
     Date(&'static str, bool),
+    /// Durations, in this unit.
     Duration(&'static str),
+    /// Words.
     Text,
     /// Nothing that we read.
     Other,

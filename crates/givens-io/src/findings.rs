@@ -91,6 +91,14 @@ impl<'a> Findings<'a> {
         });
     }
 
+    /// An error about a row of a table that is no text.
+    pub fn wrong_in_row(&self, row: usize, told: impl FnOnce() -> (String, String)) {
+        self.push_with(|| {
+            let (message, help) = told();
+            self.source.whole(format!("row {row}: {message}")).with_help(help)
+        });
+    }
+
     /// [`Self::wrong`] with a remedy where there is one.
     pub fn wrong_maybe(&self, span: &Range<usize>, message: impl Into<String>, help: Option<String>) {
         self.push_with(|| InputError { help, ..self.source.error(span.clone(), message) });

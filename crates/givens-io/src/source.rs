@@ -4,6 +4,7 @@ use core::ops::Range;
 use std::io::Read;
 
 use crate::error::{InputError, Location, Place};
+use crate::table::MAGIC;
 
 /// A text that was read, and the name under which errors speak of it.
 #[derive(Clone, Debug)]
@@ -133,9 +134,9 @@ pub(crate) fn fingerprint(length: u64, sum: &crc32fast::Hasher) -> String {
 
 /// The error of bytes that are no text but for the first `valid`, behind so many lines.
 pub(crate) fn not_text(name: &str, bytes: &[u8], valid: usize, lines: usize) -> InputError {
-    if bytes.starts_with(b"PAR1") {
-        let error = whole(name, "this is a Parquet file, which this version does not read yet");
-        return error.with_help("write it as CSV");
+    if bytes.starts_with(MAGIC) {
+        let error = whole(name, "this is a Parquet file, which is read from its end");
+        return error.with_help("name the file in place of `-`; a truth and a model are text");
     }
     let text = String::from_utf8_lossy(bytes).into_owned();
     let wrong = Source::stretch(name, text, lines).error(valid..valid + 1, "this is not UTF-8 text");

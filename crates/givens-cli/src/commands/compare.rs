@@ -107,7 +107,7 @@ fn line(
     gated: bool,
     threads: Option<NonZeroUsize>,
 ) -> Result<(Vec<String>, Vec<String>), Stop> {
-    let manner = Manner { at: None, threads, whole: false, judged: false };
+    let manner = Manner { at: None, threads, whole: false, judged: false, counted: None };
     let run = |goal: Goal| {
         let goals = vec![goal; plan.tracks.tracks.len()];
         Session::hand_over(plan, choice, &goals, manner, &mut |_, _, _| ControlFlow::Continue(()))

@@ -1,7 +1,8 @@
 //! `givens filter` and `givens smooth`.
 
-use crate::args::{FilterArgs, FormatArg, SmoothArgs};
+use crate::args::{FilterArgs, FormatArg, LayoutArg, SmoothArgs};
 use crate::checkpoint::{self, Checkpoint};
+use crate::commands::folder;
 use crate::figure::{self, Shown};
 use crate::files::{self, Sink};
 use crate::instants::Instants;
@@ -13,29 +14,52 @@ use crate::session::{Manner, Session};
 use crate::streaming::{Stand, Streaming};
 use crate::sums::Sums;
 use core::ops::ControlFlow;
+use core::sync::atomic::AtomicUsize;
 use core::time::Duration;
 use givens::Goal;
-use givens_io::{AnswerWriter, Format, Identity, Journal, Written, write_answers};
+use givens_io::{AnswerWriter, Format, Identity, Journal, Layout, Tracks, Written};
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// Estimates each state from the measurements up to it.
 pub fn filter(args: &FilterArgs) -> Result<(), Stop> {
-    run(args, "filter", |plan| Ok(vec![Goal::Filter; plan.tracks.tracks.len()]))
+    run(args, "filter", &|plan| Ok(vec![Goal::Filter; plan.tracks.tracks.len()]))
 }
 
 /// Estimates each state from the measurements after it too.
 pub fn smooth(args: &SmoothArgs) -> Result<(), Stop> {
     let task = format!("smooth {:?} {:?}", args.lag, args.point);
-    run(&args.run, &task, |plan| match (&args.point, args.lag) {
+    run(&args.run, &task, &|plan| match (&args.point, args.lag) {
         (Some(point), _) => plan.points(point),
         (None, lag) => Ok(vec![lag.map_or(Goal::Interval, Goal::Lag); plan.tracks.tracks.len()]),
     })
 }
 
-fn run(args: &FilterArgs, task: &str, goals: impl Fn(&Plan) -> Result<Vec<Goal>, Stop>) -> Result<(), Stop> {
+/// What came of one table.
+pub struct Done {
+    pub tracks: usize,
+    pub rows: usize,
+    pub log_likelihood: f64,
+    /// Tracks that failed, in words.
+    pub failures: Vec<String>,
+}
+
+type Goals<'a> = &'a (dyn Fn(&Plan) -> Result<Vec<Goal>, Stop> + Sync);
+
+fn run(args: &FilterArgs, task: &str, goals: Goals) -> Result<(), Stop> {
+    if let Some(files) = folder::files(&args.data)? {
+        let format = |output: Option<&Path>| format(args.format, output);
+        return folder::run(args, &files, task, format, |args, count| one(args, task, goals, Some(count)));
+    }
+    let Done { failures, .. } = one(args, task, goals, None)?;
+    if failures.is_empty() { Ok(()) } else { Err(Stop::failures(&failures)) }
+}
+
+/// Runs over one table; where its rows are `counted` among those of others, nothing is told of it.
+fn one(args: &FilterArgs, task: &str, goals: Goals, counted: Option<&AtomicUsize>) -> Result<Done, Stop> {
     let output = args.output.as_deref();
     let format = format(args.format, output)?;
+    let layout = layout(args, format)?;
     args.plots.iter().try_for_each(|path| figure::check(path))?;
     args.report.as_deref().map_or(Ok(()), judgement::check)?;
     let resumable = args.resume.zip(output);
@@ -59,9 +83,11 @@ fn run(args: &FilterArgs, task: &str, goals: impl Fn(&Plan) -> Result<Vec<Goal>,
         report: args.report.as_deref().map(|path| Sink::open(Some(path))).transpose()?,
     };
     let whole = format == Format::Jsonl;
-    let manner = Manner { at: at.as_ref(), threads: args.threads, whole, judged: args.report.is_some() };
+    let manner =
+        Manner { at: at.as_ref(), threads: args.threads, whole, judged: args.report.is_some(), counted };
     let identity = checkpoint::identity(args, &plan, task, format);
-    let target = Target { output, format, resumable: resumable.map(|(every, path)| (every, path, identity)) };
+    let target =
+        Target { output, format, layout, resumable: resumable.map(|(every, path)| (every, path, identity)) };
     match goals[..] {
         [goal] => alone(&plan, goal, manner, target, pages),
         _ if target.resumable.is_none() && !pages.drawn() && plan.tracks.in_turn() => {
@@ -75,13 +101,28 @@ fn run(args: &FilterArgs, task: &str, goals: impl Fn(&Plan) -> Result<Vec<Goal>,
 struct Target<'a> {
     output: Option<&'a Path>,
     format: Format,
+    layout: Layout,
     /// How often a checkpoint is kept beside the output, and what it is of.
     resumable: Option<(Duration, &'a Path, Identity)>,
 }
 
+impl Target<'_> {
+    fn writer<'p>(
+        &self,
+        plan: &'p Plan,
+        tracks: &'p Tracks,
+        goals: &[Goal],
+        manner: Manner,
+    ) -> AnswerWriter<'p> {
+        let smoothed = goals.iter().any(|goal| *goal != Goal::Filter);
+        let (model, gated, threads) = (&plan.model, plan.choice.gate.is_some(), manner.threads);
+        AnswerWriter { format: self.format, layout: self.layout, model, tracks, smoothed, gated, threads }
+    }
+}
+
 /// A single track, written as it is finished.
-fn alone(plan: &Plan, goal: Goal, manner: Manner, target: Target, pages: Pages) -> Result<(), Stop> {
-    let mut run = Streaming::new(plan, goal, manner, target.format, pages.drawn())?;
+fn alone(plan: &Plan, goal: Goal, manner: Manner, target: Target, pages: Pages) -> Result<Done, Stop> {
+    let mut run = Streaming::new(plan, goal, manner, (target.format, target.layout), pages.drawn())?;
     let (mut kept, mut left) = (None, None);
     let mut sink = match target.resumable {
         Some((every, output, identity)) => {
@@ -98,13 +139,19 @@ fn alone(plan: &Plan, goal: Goal, manner: Manner, target: Target, pages: Pages) 
     run.stop().map_or(Ok(()), Err)?;
     let failures = run.failure().map_or(&[][..], core::slice::from_ref);
     named(plan, sink, kept.is_some(), pages, run.sums(), failures, run.shown().as_slice())?;
-    ended(plan, run.sums(), failures, kept)
+    Ok(ended(plan, manner, run.sums(), failures, kept))
 }
 
 /// Tracks side by side, written when all are done.
-fn together(plan: &Plan, goals: &[Goal], manner: Manner, target: Target, pages: Pages) -> Result<(), Stop> {
+fn together(
+    plan: &Plan,
+    goals: &[Goal],
+    manner: Manner,
+    mut target: Target,
+    pages: Pages,
+) -> Result<Done, Stop> {
     let (mut kept, mut done) = (None, Vec::new());
-    if let Some((every, output, identity)) = target.resumable {
+    if let Some((every, output, identity)) = target.resumable.take() {
         let (checkpoint, found) = Checkpoint::open(output, identity, every)?;
         (kept, done) = (Some(checkpoint), found);
     }
@@ -113,31 +160,29 @@ fn together(plan: &Plan, goals: &[Goal], manner: Manner, target: Target, pages: 
     }
     let mut sink = Sink::open(target.output)?;
     let session = Session::hold(plan, &plan.choice, goals, manner, done, kept.as_mut())?;
-    let (model, format, gated) = (&plan.model, target.format, plan.choice.gate.is_some());
-    sink.fill(|out| match manner.at {
-        Some(at) => write_answers(out, format, model, &at.tracks(plan), &session.at, gated, manner.threads),
-        None => write_answers(out, format, model, &plan.tracks, &session.answers, gated, manner.threads),
-    })?;
+    let times = manner.at.map(|at| at.tracks(plan));
+    let answers = if times.is_some() { &session.at } else { &session.answers };
+    let writer = target.writer(plan, times.as_ref().unwrap_or(&plan.tracks), goals, manner);
+    sink.fill(|out| writer.write(out, answers))?;
     named(plan, sink, kept.is_some(), pages, &session.sums, &session.failures, &session.shown())?;
-    ended(plan, &session.sums, &session.failures, kept)
+    Ok(ended(plan, manner, &session.sums, &session.failures, kept))
 }
 
 /// Tracks that stand one behind the other in the table, written some at a time: memory does not grow with their rows.
-fn in_turn(plan: &Plan, goals: &[Goal], manner: Manner, target: &Target) -> Result<(), Stop> {
-    let (format, gated, threads) = (target.format, plan.choice.gate.is_some(), manner.threads);
-    let smoothed = goals.iter().any(|goal| *goal != Goal::Filter);
+fn in_turn(plan: &Plan, goals: &[Goal], manner: Manner, target: &Target) -> Result<Done, Stop> {
     let times = manner.at.map(|at| at.tracks(plan));
     let tracks = times.as_ref().unwrap_or(&plan.tracks);
-    let writer = AnswerWriter { format, model: &plan.model, tracks, smoothed, gated, threads };
+    let writer = target.writer(plan, tracks, goals, manner);
     let mut sink = Sink::open(target.output)?;
     let mut session = None;
     sink.fill(|out| {
-        let mut done = writer.header(out);
+        let mut all = writer.begin(out)?;
+        let mut done = Ok(());
         session = Some(Session::hand_over(plan, &plan.choice, goals, manner, &mut |range, answers, at| {
             let answers = if times.is_some() { at } else { answers };
             let parts = tracks.tracks[range].iter().zip(answers).map(|(track, answer)| answer.part(track));
             if done.is_ok() {
-                done = writer.rows(out, &parts.collect::<Vec<_>>());
+                done = all.rows(out, &parts.collect::<Vec<_>>());
             }
             // if nobody reads any more the run goes on, for what is told of it
             match &done {
@@ -145,11 +190,12 @@ fn in_turn(plan: &Plan, goals: &[Goal], manner: Manner, target: &Target) -> Resu
                 _ => ControlFlow::Continue(()),
             }
         }));
-        done.and_then(|()| out.flush())
+        done.and_then(|()| all.end(out))
     })?;
-    let Some(session) = session.transpose()? else { return Ok(()) };
+    let session = session.transpose()?;
     sink.finish()?;
-    ended(plan, &session.sums, &session.failures, None)
+    let (sums, failures) = session.map_or((Sums::default(), Vec::new()), |of| (of.sums, of.failures));
+    Ok(ended(plan, manner, &sums, &failures, None))
 }
 
 const GOES_ON: &str = "goes on from the checkpoint of a run that was broken off";
@@ -170,10 +216,18 @@ fn named(
 }
 
 /// The last words, when all is written.
-fn ended(plan: &Plan, sums: &Sums, failures: &[String], kept: Option<Checkpoint>) -> Result<(), Stop> {
+fn ended(plan: &Plan, manner: Manner, sums: &Sums, failures: &[String], kept: Option<Checkpoint>) -> Done {
     kept.into_iter().for_each(Checkpoint::remove);
-    report::closing(plan, &sums.summary(plan.choice.gate));
-    if failures.is_empty() { Ok(()) } else { Err(Stop::failures(failures)) }
+    let summary = sums.summary(plan.choice.gate);
+    if manner.counted.is_none() {
+        report::closing(plan, &summary);
+    }
+    Done {
+        tracks: plan.tracks.tracks.len(),
+        rows: summary.rows,
+        log_likelihood: summary.log_likelihood,
+        failures: failures.to_vec(),
+    }
 }
 
 /// The figures and the report of a run.
@@ -210,11 +264,30 @@ fn format(asked: Option<FormatArg>, output: Option<&Path>) -> Result<Format, Sto
     let ending = output.and_then(Path::extension).map(|ending| ending.to_string_lossy().to_lowercase());
     match (asked, ending.as_deref()) {
         (Some(FormatArg::Jsonl), _) | (None, Some("jsonl" | "ndjson")) => Ok(Format::Jsonl),
-        (None, Some(other @ ("json" | "parquet" | "arrow" | "xlsx" | "html" | "svg" | "png"))) => {
+        (Some(FormatArg::Parquet), _) | (None, Some("parquet")) => Ok(Format::Parquet),
+        (None, Some(other @ ("json" | "arrow" | "xlsx" | "html" | "svg" | "png"))) => {
             let name = output.unwrap_or(Path::new("")).display();
             let stop = Stop::input(format!("-o {name}: this version does not write .{other}"));
-            Err(stop.help("name the output .csv or .jsonl, or say --format csv or --format jsonl"))
+            Err(stop.help("name the output .csv, .jsonl or .parquet, or say --format csv, jsonl or parquet"))
         }
         (Some(FormatArg::Csv) | None, _) => Ok(Format::Csv),
+    }
+}
+
+/// The columns asked for, of a Parquet file.
+fn layout(args: &FilterArgs, format: Format) -> Result<Layout, Stop> {
+    match args.layout {
+        Some(_) if format != Format::Parquet => {
+            Err(Stop::input("--layout is for Parquet")
+                .help("name the output .parquet, or leave --layout out"))
+        }
+        _ if format == Format::Parquet && args.resume.is_some() => {
+            let stop = Stop::input("--resume: a Parquet file that was broken off cannot be gone on with");
+            Err(stop
+                .help("write .csv or .jsonl, or give a folder of files, which is gone on with file by file"))
+        }
+        Some(LayoutArg::Covariances) => Ok(Layout::Covariances),
+        Some(LayoutArg::Tidy) => Ok(Layout::Tidy),
+        Some(LayoutArg::Wide) | None => Ok(Layout::Wide),
     }
 }

@@ -4,6 +4,8 @@ pub mod check;
 pub mod compare;
 pub mod completions;
 pub mod filter;
+pub mod folder;
 pub mod methods;
+pub mod partition;
 pub mod reproduce;
 pub mod simulate;

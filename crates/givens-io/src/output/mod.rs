@@ -1,6 +1,7 @@
-//! Answers: the estimates of all tracks, as CSV or JSON lines, in the order of the table's rows.
+//! Answers: the estimates of all tracks, as CSV, JSON lines or Parquet, in the order of the table's rows.
 
 mod blocks;
+mod columns;
 mod csv;
 mod destination;
 mod jsonl;
@@ -30,6 +31,20 @@ pub enum Format {
     Csv,
     /// One JSON object per row, with all matrices.
     Jsonl,
+    /// The columns of the CSV in a Parquet file, or others by its [`Layout`].
+    Parquet,
+}
+
+/// The columns of a Parquet file of answers.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Layout {
+    /// Those of the CSV.
+    #[default]
+    Wide,
+    /// These, and `cov`: of each row the lower triangle of the covariance, row by row, as a list of n (n + 1) / 2 numbers.
+    Covariances,
+    /// `time[,track_id][,sensor],state,mean,std`, with a row for each state.
+    Tidy,
 }
 
 /// The answer for one track.
@@ -97,11 +112,13 @@ impl<'a> Part<'a> {
     }
 }
 
-/// Writes answers part by part. The lines are made on so many threads, all cores where it is not said, and are the same for any.
+/// How answers are written. The lines are made on so many threads, all cores where it is not said, and are the same for any.
 #[derive(Clone, Copy, Debug)]
 pub struct AnswerWriter<'a> {
-    /// How.
+    /// As what.
     pub format: Format,
+    /// With which columns, of a Parquet file.
+    pub layout: Layout,
     /// The model, for its names.
     pub model: &'a Model,
     /// The table, for its columns.
@@ -114,24 +131,41 @@ pub struct AnswerWriter<'a> {
     pub threads: Option<NonZeroUsize>,
 }
 
-impl AnswerWriter<'_> {
+/// Answers that are written part by part.
+pub struct Answers<'a> {
+    by: AnswerWriter<'a>,
+    columns: Option<columns::Columns>,
+}
+
+impl<'a> AnswerWriter<'a> {
     /// Writes what stands above the rows.
     ///
     /// # Errors
     /// What the writer says.
-    pub fn header(&self, out: &mut dyn Write) -> io::Result<()> {
+    pub fn begin(self, out: &mut dyn Write) -> io::Result<Answers<'a>> {
+        let mut columns = None;
         match self.format {
-            Format::Csv => out.write_all(&csv::header(self.model, self.tracks, self.gated)?),
-            Format::Jsonl => Ok(()),
+            Format::Csv => out.write_all(&csv::header(self.model, self.tracks, self.gated)?)?,
+            Format::Jsonl => {}
+            Format::Parquet => columns = Some(columns::Columns::begin(&self, out)?),
         }
+        Ok(Answers { by: self, columns })
     }
 
+    /// Goes on behind rows that stand there; a Parquet file cannot be gone on with, and gets no rows.
+    #[must_use]
+    pub fn behind(self) -> Answers<'a> {
+        Answers { by: self, columns: None }
+    }
+}
+
+impl Answers<'_> {
     /// Writes the rows of some parts in the order of the table.
     ///
     /// # Errors
     /// What the writer says.
-    pub fn rows(&self, out: &mut dyn Write, parts: &[Part]) -> io::Result<()> {
-        let Self { format, model, tracks, smoothed, gated, threads } = *self;
+    pub fn rows(&mut self, out: &mut dyn Write, parts: &[Part]) -> io::Result<()> {
+        let AnswerWriter { format, model, tracks, smoothed, gated, threads, .. } = self.by;
         let stretches = parts.iter().map(Part::rows).collect::<io::Result<Vec<_>>>()?;
         let mut lines = Vec::new();
         for (&Part { track, from, row: first, started, estimates }, rows) in parts.iter().zip(&stretches) {
@@ -143,36 +177,37 @@ impl AnswerWriter<'_> {
             }
         }
         lines.sort_by_key(|line| line.row.index);
-        match format {
-            Format::Csv => {
+        match (format, &mut self.columns) {
+            (Format::Csv, _) => {
                 blocks::write(out, &lines, threads, |lines| csv::rows(model, tracks, gated, lines))
             }
-            Format::Jsonl => {
+            (Format::Jsonl, _) => {
                 blocks::write(out, &lines, threads, |lines| jsonl::rows(model, smoothed, gated, lines))
             }
+            (Format::Parquet, Some(columns)) => columns.rows(&self.by, out, &lines),
+            (Format::Parquet, None) => Err(io::Error::other("a Parquet file cannot be gone on with")),
         }
+    }
+
+    /// Writes what stands below the rows.
+    ///
+    /// # Errors
+    /// What the writer says.
+    pub fn end(self, out: &mut dyn Write) -> io::Result<()> {
+        self.columns.map_or(Ok(()), |columns| columns.end(out))?;
+        out.flush()
     }
 }
 
-/// Writes the answers, one for each of the tracks, as one table in the order of the rows; with `gated`, it is told which rows
-/// were beyond the gate. The lines are made on so many threads,
-/// all cores where it is not said, and are the same for any.
-///
-/// # Errors
-/// What the writer says.
-pub fn write_answers(
-    out: &mut dyn Write,
-    format: Format,
-    model: &Model,
-    tracks: &Tracks,
-    answers: &[Answer],
-    gated: bool,
-    threads: Option<NonZeroUsize>,
-) -> io::Result<()> {
-    let smoothed = answers.iter().any(|answer| answer.estimates.is_smoothed());
-    let parts = tracks.tracks.iter().zip(answers).map(|(track, answer)| answer.part(track));
-    let writer = AnswerWriter { format, model, tracks, smoothed, gated, threads };
-    writer.header(out)?;
-    writer.rows(out, &parts.collect::<Vec<_>>())?;
-    out.flush()
+impl AnswerWriter<'_> {
+    /// Writes the answers, one for each of the tracks, as one table in the order of the rows.
+    ///
+    /// # Errors
+    /// What the writer says.
+    pub fn write(self, out: &mut dyn Write, answers: &[Answer]) -> io::Result<()> {
+        let parts = self.tracks.tracks.iter().zip(answers).map(|(track, answer)| answer.part(track));
+        let mut all = self.begin(out)?;
+        all.rows(out, &parts.collect::<Vec<_>>())?;
+        all.end(out)
+    }
 }

@@ -3,6 +3,7 @@
 use givens_core::scalar::Shown;
 
 use super::cell::short;
+use super::cells::Cells;
 use super::row::Raw;
 use super::rows::Rows;
 use super::time::{Calendar, Time, differ, time_text};
@@ -23,18 +24,18 @@ pub(super) struct Growing {
 }
 
 /// What is checked: a row, and where its time stands.
-pub(super) struct Check<'a> {
+pub(super) struct Check<'a, C> {
     pub findings: &'a Findings<'a>,
     pub model: &'a Model,
     /// The column of times.
     pub column: usize,
-    /// The byte where the row begins.
-    pub start: usize,
+    /// The row.
+    pub cells: &'a C,
 }
 
 impl Growing {
     /// A track with its first row; none where its times are not those of the model, which is found so.
-    pub fn begin(check: &Check, id: Option<String>, raw: Raw) -> Option<Self> {
+    pub fn begin(check: &Check<impl Cells>, id: Option<String>, raw: Raw) -> Option<Self> {
         let (origin, start) = check.origin(raw.time)?;
         let row = on_axis(raw, origin);
         let start = start.unwrap_or(row.time);
@@ -44,7 +45,7 @@ impl Growing {
     }
 
     /// Adds a row behind the others.
-    pub fn push(&mut self, check: &Check, raw: Raw) {
+    pub fn push(&mut self, check: &Check<impl Cells>, raw: Raw) {
         let row = on_axis(raw, self.track.origin);
         if let Some(before) = self.track.rows.last() {
             check.follows(&row, before, &self.latest);
@@ -66,10 +67,9 @@ fn on_axis(raw: Raw, origin: Option<Calendar>) -> Row {
     Row { time, ..raw.row }
 }
 
-impl Check<'_> {
+impl<C: Cells> Check<'_, C> {
     fn wrong(&self, message: String, help: &str) {
-        let span = super::sheet::field_span(&self.findings.source.text, self.start, self.column);
-        self.findings.wrong_help(&span, message, help);
+        self.cells.wrong(self.findings, self.column, message, help);
     }
 
     /// The instant from which a track with this first time counts, and the time of the initial belief where the model states it.

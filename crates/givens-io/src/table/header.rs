@@ -26,6 +26,22 @@ pub(super) struct Columns {
     pub ignored: Vec<String>,
 }
 
+impl Columns {
+    /// Whether names are read from a column: of tracks or sensors.
+    pub fn names(&self, column: usize) -> bool {
+        self.track == Some(column) || self.sensor == Some(column)
+    }
+
+    /// Whether a column is read.
+    pub fn reads(&self, column: usize) -> bool {
+        let one_of = |columns: &[usize]| columns.contains(&column);
+        self.time == column
+            || self.names(column)
+            || one_of(&self.controls)
+            || self.measures.contains(&Some(column))
+    }
+}
+
 /// Finds the columns of measurements, or only those of times and controls; what is missing is found wrong.
 pub(super) fn columns(sheet: &Sheet, model: &Model, measured: bool) -> Option<Columns> {
     let time = time(sheet);

@@ -1,9 +1,12 @@
-//! Tables of measurements and of true states, as CSV.
+//! Tables of measurements, as CSV or Parquet, and of true states, as CSV.
 
 mod cell;
+mod cells;
 mod check;
 mod chunks;
+mod columnar;
 mod header;
+mod parquet;
 mod reading;
 mod row;
 mod rows;
@@ -14,6 +17,7 @@ mod tests;
 mod time;
 mod truth;
 
+pub(crate) use parquet::{MAGIC, broken as unreadable_parquet, is_parquet};
 pub use rows::Rows;
 pub use time::Calendar;
 pub use truth::{Truth, parse_truth, read_truth};
@@ -37,6 +41,8 @@ pub struct Tracks {
     pub ignored: Vec<String>,
     /// Whether the table has the column `track_id`.
     pub has_track_id: bool,
+    /// Whether its names are whole numbers in a table of columns.
+    pub whole_ids: bool,
     /// Whether the table has the column `sensor`.
     pub has_sensor: bool,
     /// The least and the most of each measure of the stack; none where no row has it.
@@ -78,6 +84,12 @@ pub struct Row {
 }
 
 impl Tracks {
+    /// Whether times are instants of the calendar.
+    #[must_use]
+    pub fn is_dated(&self) -> bool {
+        self.tracks.iter().any(|track| track.origin.is_some())
+    }
+
     /// Whether the rows of each track stand together in the table.
     #[must_use]
     pub fn in_turn(&self) -> bool {
@@ -118,7 +130,7 @@ impl Track {
     }
 }
 
-/// Reads the measurements for a model from a CSV file, or from standard input for `-`.
+/// Reads the measurements for a model from a CSV or a Parquet file, or as CSV from standard input for `-`.
 ///
 /// Times are seconds, or RFC 3339. The latter count from `[state] time` if that is such a time too, else from the
 /// first row of each track; a number of `[state] time` then places the belief that many seconds after the first row.
@@ -155,6 +167,11 @@ fn read(path: &str, model: &Model, measured: bool) -> Result<Tracks, InputErrors
         return tracks(&mut io::stdin().lock(), name, model, measured);
     }
     let mut file = File::open(path).map_err(|error| whole(name, unreadable(&error)))?;
+    if file.metadata().is_ok_and(|about| about.is_file()) {
+        if parquet::is_parquet(&mut file).map_err(|error| whole(name, unreadable(&error)))? {
+            return parquet::tracks(file, name, model, measured, reading::HELD);
+        }
+    }
     tracks(&mut file, name, model, measured)
 }
 

@@ -4,11 +4,12 @@ use std::collections::HashMap;
 use std::io;
 use std::sync::Arc;
 
+use super::cells::Cells;
 use super::check::{Check, Growing};
 use super::chunks::Chunks;
 use super::header::{self, Columns};
 use super::row::{row, track_id};
-use super::sheet::{Fields, Sheet};
+use super::sheet::Sheet;
 use super::spool::Spool;
 use super::time::Time;
 use super::{Track, Tracks};
@@ -45,11 +46,7 @@ pub(super) fn tracks(
         }
         let (names, used) = sheet.into_rest();
         if chunk.is_last {
-            if reading.rows == 0 && findings.none() {
-                let error = findings.source.whole("the table has a header but no rows");
-                findings.push(error.with_help("each row below the header is one measurement"));
-            }
-            return findings.finish(reading.finish(chunks.fingerprint()));
+            return reading.end(findings, chunks.fingerprint());
         }
         begun = Some((names, reading));
         found = findings.found();
@@ -58,7 +55,7 @@ pub(super) fn tracks(
 }
 
 /// Reads the header; what is wrong with it is found so.
-fn open<'f, 'm>(
+pub(super) fn open<'f, 'm>(
     findings: &'f Findings<'f>,
     model: &'m Model,
     measured: bool,
@@ -72,7 +69,7 @@ fn open<'f, 'm>(
 }
 
 /// A table of which a part was read.
-struct Reading<'m> {
+pub(super) struct Reading<'m> {
     model: &'m Model,
     columns: Columns,
     /// In the order in which they are first named; none of a track whose times are not those of the model.
@@ -82,6 +79,8 @@ struct Reading<'m> {
     kind: Option<Time>,
     /// Rows so far, those that were wrong among them.
     rows: usize,
+    /// Whether names of tracks are whole numbers.
+    pub whole_ids: bool,
     ranges: Vec<Option<[f64; 2]>>,
     /// Rows that were not written to the disk, and how many may be.
     held: (usize, usize),
@@ -98,14 +97,20 @@ impl<'m> Reading<'m> {
             known: HashMap::new(),
             kind: None,
             rows: 0,
+            whole_ids: false,
             ranges,
             held: (0, held),
             spool: None,
         }
     }
 
+    /// What the columns mean.
+    pub fn columns(&self) -> &Columns {
+        &self.columns
+    }
+
     /// Takes in a row; what is wrong with it is found so.
-    fn take(&mut self, findings: &Findings, fields: &Fields) -> io::Result<()> {
+    pub fn take(&mut self, findings: &Findings, fields: &impl Cells) -> io::Result<()> {
         let Self { model, columns, .. } = self;
         let raw = row(findings, fields, columns, model, self.kind, self.rows);
         self.rows += 1;
@@ -121,7 +126,7 @@ impl<'m> Reading<'m> {
                 *range = Some([least.min(z), most.max(z)]);
             }
         }
-        let check = Check { findings, model, column: columns.time, start: fields.start() };
+        let check = Check { findings, model, column: columns.time, cells: fields };
         if let Some(&track) = self.known.get(id) {
             if let Some(Some(track)) = self.tracks.get_mut(track) {
                 track.push(&check, raw);
@@ -145,11 +150,22 @@ impl<'m> Reading<'m> {
         self.tracks.iter_mut().flatten().try_for_each(|growing| growing.track.rows.spill(&spool))
     }
 
+    /// The tracks, if nothing was found wrong.
+    pub fn end(self, findings: Findings, fingerprint: String) -> Result<Tracks, InputErrors> {
+        if self.rows == 0 && findings.none() {
+            let error = findings.source.whole("the table has a header but no rows");
+            findings.push(error.with_help("each row below the header is one measurement"));
+        }
+        let tracks = self.finish(fingerprint);
+        findings.finish(tracks)
+    }
+
     fn finish(self, fingerprint: String) -> Option<Tracks> {
         let tracks: Vec<Track> =
             self.tracks.into_iter().map(|growing| Some(growing?.track)).collect::<Option<_>>()?;
         let (has_track_id, has_sensor) = (self.columns.track.is_some(), self.columns.sensor.is_some());
         let (ignored, ranges) = (self.columns.ignored, self.ranges);
-        Some(Tracks { tracks, ignored, has_track_id, has_sensor, ranges, fingerprint })
+        let whole_ids = self.whole_ids;
+        Some(Tracks { tracks, ignored, has_track_id, whole_ids, has_sensor, ranges, fingerprint })
     }
 }

@@ -3,10 +3,10 @@
 use givens_expr::suggest;
 
 use super::Row;
-use super::cell::{Cell, number, short};
+use super::cell::{Cell, short};
+use super::cells::Cells;
 use super::header::Columns;
-use super::sheet::Fields;
-use super::time::{Time, time};
+use super::time::Time;
 use crate::findings::{Findings, list};
 use crate::model_file::Model;
 
@@ -17,11 +17,11 @@ pub(super) struct Raw {
 }
 
 /// The cell of `track_id`.
-pub(super) fn track_id<'f>(findings: &Findings, fields: &'f Fields, column: usize) -> Option<&'f str> {
-    let id = fields.text(column);
+pub(super) fn track_id<'f>(findings: &Findings, fields: &'f impl Cells, column: usize) -> Option<&'f str> {
+    let id = fields.word(column);
     if id.is_empty() {
         let help = "name its track, or remove the column if all rows are of one";
-        findings.wrong_help(&fields.span(column), "a row has no `track_id`", help);
+        fields.wrong(findings, column, "a row has no `track_id`", help);
         return None;
     }
     Some(id)
@@ -30,22 +30,22 @@ pub(super) fn track_id<'f>(findings: &Findings, fields: &'f Fields, column: usiz
 /// Reads a row; what is wrong is found so.
 pub(super) fn row(
     findings: &Findings,
-    fields: &Fields,
+    fields: &impl Cells,
     columns: &Columns,
     model: &Model,
     before: Option<Time>,
     index: usize,
 ) -> Option<Raw> {
-    let time = time(findings, fields, columns.time, before);
+    let time = fields.time(findings, columns.time, before);
     let u: Vec<f64> = columns
         .controls
         .iter()
-        .filter_map(|&column| match number(findings, fields, column) {
+        .filter_map(|&column| match fields.number(findings, column) {
             Cell::Number(value) => Some(value),
             Cell::Wrong => None,
             Cell::Empty => {
                 let message = format!("the control {} is missing", fields.column(column));
-                findings.wrong_help(&fields.span(column), message, "every row states its controls");
+                fields.wrong(findings, column, message, "every row states its controls");
                 None
             }
         })
@@ -56,13 +56,13 @@ pub(super) fn row(
     } else {
         asked(findings, fields, model, sensor)
     };
-    let time = time?;
+    let (time, time_text) = time?;
     let row = Row {
         line: fields.line(),
         index,
         // The seconds of a calendar time are known when its track is.
         time: if let Time::Seconds(seconds) = time { seconds } else { 0.0 },
-        time_text: fields.text(columns.time).to_string(),
+        time_text,
         sensor,
         z,
         u,
@@ -76,11 +76,11 @@ struct Found;
 /// The sensor that a row names, if it names one; a name that cannot stand is found wrong.
 fn sensor(
     findings: &Findings,
-    fields: &Fields,
+    fields: &impl Cells,
     columns: &Columns,
     model: &Model,
 ) -> Result<Option<usize>, Found> {
-    let Some((column, name)) = columns.sensor.map(|column| (column, fields.text(column))) else {
+    let Some((column, name)) = columns.sensor.map(|column| (column, fields.word(column))) else {
         return Ok(None);
     };
     if name.is_empty() {
@@ -89,7 +89,7 @@ fn sensor(
     let found = model.sensors.iter().position(|sensor| sensor.name == name);
     let names = || model.sensors.iter().map(|sensor| sensor.name.as_str());
     let Some(index) = found else {
-        findings.wrong_by(&fields.span(column), || {
+        fields.wrong_by(findings, column, || {
             let help = match suggest(name, names()) {
                 Some(near) => format!("did you mean `{near}`?"),
                 None => format!("the model has {}", list(names())),
@@ -102,11 +102,11 @@ fn sensor(
 }
 
 /// A zero for each measure that a row of a table of times asks for: those of its sensor, or all.
-fn asked(findings: &Findings, fields: &Fields, model: &Model, sensor: Option<usize>) -> Vec<f64> {
+fn asked(findings: &Findings, fields: &impl Cells, model: &Model, sensor: Option<usize>) -> Vec<f64> {
     let own = sensor.and_then(|index| model.sensors.get(index));
     if let (None, Some(name)) = (own, shared_column(model)) {
         let message = format!("the sensors share the column `{name}`, and this row names none");
-        findings.wrong_help(&fields.span(0), message, "name a `sensor` in each row");
+        fields.wrong(findings, 0, message, "name a `sensor` in each row");
     }
     let asks = |index: &usize| own.is_none_or(|own| own.measures.contains(index));
     (0..model.measures()).map(|index| if asks(&index) { 0.0 } else { f64::NAN }).collect()
@@ -122,7 +122,7 @@ fn shared_column(model: &Model) -> Option<&str> {
 /// The measures that a row brings; values that its sensor does not have are found wrong.
 fn measures(
     findings: &Findings,
-    fields: &Fields,
+    fields: &impl Cells,
     columns: &Columns,
     model: &Model,
     sensor: Option<usize>,
@@ -134,25 +134,25 @@ fn measures(
         let Some(column) = column else { continue };
         if own.is_some_and(|own| !own.measures.contains(&index)) {
             let other = own.is_some_and(|own| own.columns.iter().any(|name| fields.name(column) == name));
-            if !other && !fields.text(column).is_empty() && !told.contains(&column) {
+            if !other && !fields.is_empty(column) && !told.contains(&column) {
                 told.push(column);
                 let name = own.map_or("", |own| own.name.as_str());
                 let message =
                     format!("{} is no measure of the sensor `{name}` of this row", fields.column(column));
-                findings.wrong_help(&fields.span(column), message, "give each sensor a row of its own");
+                fields.wrong(findings, column, message, "give each sensor a row of its own");
             }
             continue;
         }
         if shared && own.is_none() {
-            if !fields.text(column).is_empty() && !told.contains(&column) {
+            if !fields.is_empty(column) && !told.contains(&column) {
                 told.push(column);
                 let message =
                     format!("{} belongs to several sensors, and the row names none", fields.column(column));
-                findings.wrong_help(&fields.span(column), message, "fill in its `sensor`");
+                fields.wrong(findings, column, message, "fill in its `sensor`");
             }
             continue;
         }
-        if let (Cell::Number(value), Some(slot)) = (number(findings, fields, column), z.get_mut(index)) {
+        if let (Cell::Number(value), Some(slot)) = (fields.number(findings, column), z.get_mut(index)) {
             *slot = value;
         }
     }
@@ -162,7 +162,7 @@ fn measures(
         if absent && columns.measures.iter().any(Option::is_some) {
             let message = format!("the table has no columns of the sensor `{}`", own.name);
             let help = format!("its measures are {}", list(own.columns.iter().map(String::as_str)));
-            findings.wrong_help(&fields.span(column), message, help);
+            fields.wrong(findings, column, message, help);
         }
     }
     z

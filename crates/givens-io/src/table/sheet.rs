@@ -178,10 +178,6 @@ impl Fields<'_> {
         self.source.number(self.start)
     }
 
-    pub fn start(&self) -> usize {
-        self.start
-    }
-
     /// The place of a field.
     pub fn span(&self, column: usize) -> Range<usize> {
         field_span(&self.source.text, self.start, column)

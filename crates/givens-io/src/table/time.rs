@@ -34,6 +34,16 @@ impl Calendar {
         Ok(Self(instant))
     }
 
+    /// The instant so many nanoseconds after 1970-01-01T00:00:00Z, if the calendar goes so far.
+    pub(super) fn of_nanoseconds(nanoseconds: i128) -> Option<Self> {
+        Timestamp::from_nanosecond(nanoseconds).ok().map(Self)
+    }
+
+    /// Nanoseconds since 1970-01-01T00:00:00Z.
+    pub(crate) fn nanoseconds(self) -> i128 {
+        self.0.as_nanosecond()
+    }
+
     /// Seconds from `earlier` to `self`.
     pub fn since(self, earlier: Self) -> f64 {
         let nanoseconds = self.0.as_nanosecond() - earlier.0.as_nanosecond();

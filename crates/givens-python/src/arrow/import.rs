@@ -13,8 +13,8 @@ use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
 use pyo3::types::{PyCapsule, PyCapsuleMethods, PyString};
 
-use crate::arrow::decode::{Kind, floats, integers, kind, texts, unsigned};
 use crate::errors::{Input, Result};
+use givens_io::decode::{Kind, floats, integers, kind, texts, unsigned};
 
 /// The name that the protocol gives to capsules of streams.
 pub const STREAM: &CStr = c"arrow_array_stream";

@@ -1,6 +1,5 @@
 //! Tables of other libraries, in and out, by Arrow's PyCapsule protocol: memory is lent, and no library is imported.
 
-mod decode;
 mod export;
 mod import;
 

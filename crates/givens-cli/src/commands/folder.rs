@@ -1,0 +1,252 @@
+//! `givens filter` and `givens smooth` over many files: each becomes a file of its own, several at a time.
+
+use crate::args::FilterArgs;
+use crate::checkpoint::{self, Checkpoint};
+use crate::commands::filter::Done;
+use crate::files::is_standard;
+use crate::message::{Stop, count, say};
+use crate::plan;
+use crate::progress::Progress;
+use core::num::NonZeroUsize;
+use core::sync::atomic::{AtomicUsize, Ordering};
+use givens::scalar::Shown;
+use givens_io::{Format, list_files, make_folder};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+use std::thread::{available_parallelism, scope};
+use std::time::Instant;
+
+/// Failures that are named; of the others the number.
+const NAMED: usize = 20;
+
+/// What came of the files so far.
+#[derive(Default)]
+struct Come {
+    tracks: usize,
+    rows: usize,
+    log_likelihood: f64,
+    failures: Vec<String>,
+    failed: usize,
+    /// Files that were not read, in words.
+    refused: Vec<String>,
+}
+
+/// A file that is done, as a checkpoint keeps it.
+#[derive(Serialize, Deserialize)]
+struct File {
+    name: String,
+    /// Length and time of the last change.
+    state: (u64, u128),
+    tracks: usize,
+    rows: usize,
+    log_likelihood: f64,
+    failures: Vec<String>,
+}
+
+/// The files that `data` stands for, if it is a folder or a pattern.
+pub fn files(data: &str) -> Result<Option<Vec<PathBuf>>, Stop> {
+    Ok(list_files(data, &["parquet", "csv"])?)
+}
+
+/// Runs `one` over each file, into the folder of `-o`.
+pub fn run(
+    args: &FilterArgs,
+    files: &[PathBuf],
+    task: &str,
+    format: impl Fn(Option<&Path>) -> Result<Format, Stop>,
+    one: impl Fn(&FilterArgs, &AtomicUsize) -> Result<Done, Stop> + Sync,
+) -> Result<(), Stop> {
+    let folder = folder(args)?;
+    for (given, option) in [
+        (args.truth.is_some(), "--truth"),
+        (!args.plots.is_empty(), "--plot"),
+        (args.report.is_some(), "--report"),
+    ] {
+        if given {
+            return Err(Stop::input(format!("{option} is for one table, and {} is of several", args.data)));
+        }
+    }
+    // what is wrong with the model is told once, before any file is read
+    let model = plan::model(&args.model)?;
+    let choice = crate::method::chosen(&model, &args.method)?;
+    let outputs = outputs(args, files, folder, &format)?;
+    make_folder(folder).map_err(|error| Stop::input(error.to_string()))?;
+    let whole = folder.join("run");
+    Checkpoint::check(Some(&whole), args.resume.is_some())?;
+    let (mut kept, mut before) = (None, Vec::new());
+    if let Some(every) = args.resume {
+        let identity = checkpoint::of_files(args, &model, &choice, task);
+        let (checkpoint, done) = Checkpoint::open::<File>(&whole, identity, every)?;
+        (kept, before) = (Some(checkpoint), done);
+    }
+    let mut come = Come::default();
+    let mut left = Vec::new();
+    for (file, output) in files.iter().zip(&outputs) {
+        let (name, state) = (file.display().to_string(), state(file));
+        match before.iter().position(|done| done.name == name && done.state == state && output.is_file()) {
+            Some(k) => come.add(before.swap_remove(k)),
+            None => left.push((file, output, state)),
+        }
+    }
+    if left.len() < files.len() {
+        say(&format!(
+            "goes on: {} of {} were done before",
+            files.len() - left.len(),
+            count(files.len(), "file")
+        ));
+    }
+    let cores = args.threads.or_else(|| available_parallelism().ok()).map_or(1, NonZeroUsize::get);
+    let workers = cores.min(left.len()).max(1);
+    let threads = NonZeroUsize::new((cores / workers).max(1));
+    let (begun, next) = (Instant::now(), AtomicUsize::new(0));
+    let shared = Mutex::new((&mut come, kept.as_mut(), None));
+    let bar = Progress::of_files(left.len());
+    bar.during(|done| {
+        let rows = AtomicUsize::new(0);
+        let work = || {
+            while let Some((file, output, state)) = left.get(next.fetch_add(1, Ordering::Relaxed)) {
+                let name = file.display().to_string();
+                let own = FilterArgs {
+                    data: name.clone(),
+                    output: Some((*output).clone()),
+                    resume: None,
+                    threads,
+                    ..args.clone()
+                };
+                let came = one(&own, &rows);
+                let mut shared = shared.lock().unwrap_or_else(PoisonError::into_inner);
+                let (come, kept, stop) = &mut *shared;
+                match came {
+                    Ok(Done { tracks, rows, log_likelihood, failures }) => {
+                        let file = File { name, state: *state, tracks, rows, log_likelihood, failures };
+                        if let Some(Err(error)) = kept.as_mut().map(|kept| kept.append(&file)) {
+                            *stop = Some(Stop::failed(error.to_string()));
+                        }
+                        come.add(file);
+                    }
+                    Err(refused) => come.refused.push(refused.message),
+                }
+                done.fetch_add(1, Ordering::Relaxed);
+                if stop.is_some() {
+                    next.store(left.len(), Ordering::Relaxed);
+                }
+            }
+        };
+        scope(|scope| {
+            for _ in 1..workers {
+                scope.spawn(work);
+            }
+            work();
+        });
+    });
+    let stop = shared.into_inner().unwrap_or_else(PoisonError::into_inner).2;
+    let seconds = begun.elapsed().as_secs_f64();
+    let per_core = come.rows as f64 / seconds.max(1e-9) / cores as f64;
+    let rate = if left.len() == files.len() {
+        format!(", {} rows a second of a core", Shown(per_core.round()))
+    } else {
+        String::new()
+    };
+    say(&format!(
+        "{}: {} of {} in {}, log-likelihood {:.3}{rate}",
+        choice.title(),
+        count(come.rows, "row"),
+        count(come.tracks, "track"),
+        count(files.len() - come.refused.len(), "file"),
+        Shown(come.log_likelihood),
+    ));
+    stop.map_or(Ok(()), Err)?;
+    if come.refused.is_empty() {
+        kept.into_iter().for_each(Checkpoint::remove);
+    }
+    come.end()
+}
+
+impl Come {
+    fn add(&mut self, file: File) {
+        self.tracks += file.tracks;
+        self.rows += file.rows;
+        self.log_likelihood += file.log_likelihood;
+        self.failed += file.failures.len();
+        let room = NAMED.saturating_sub(self.failures.len());
+        self.failures.extend(file.failures.into_iter().take(room));
+    }
+
+    fn end(mut self) -> Result<(), Stop> {
+        if self.failed > self.failures.len() {
+            let more = self.failed - self.failures.len();
+            self.failures.push(format!("{} failed besides", count(more, "track")));
+        }
+        match (self.refused.is_empty(), self.failures.is_empty()) {
+            (true, true) => Ok(()),
+            (true, false) => Err(Stop::failures(&self.failures)),
+            (false, _) => {
+                let failures = self.failures.iter().map(|failure| format!("error: {failure}"));
+                let all: Vec<String> = self.refused.iter().cloned().chain(failures).collect();
+                Err(Stop { message: all.join("\n"), code: 1 })
+            }
+        }
+    }
+}
+
+/// The folder of `-o`.
+fn folder(args: &FilterArgs) -> Result<&Path, Stop> {
+    let help = "name a folder, in which each file gets one of its own: -o answers";
+    match args.output.as_deref() {
+        Some(folder) if is_standard(folder) || folder.is_file() => {
+            let message = format!("-o {}: of several tables the answers are several files", folder.display());
+            Err(Stop::input(message).help(help))
+        }
+        Some(folder) => Ok(folder),
+        None => {
+            let message = format!("{} is of several tables, and there is no -o", args.data);
+            Err(Stop::input(message).help(help))
+        }
+    }
+}
+
+/// Where the answers of each file go: the same name, with the ending of the format.
+fn outputs(
+    args: &FilterArgs,
+    files: &[PathBuf],
+    folder: &Path,
+    format: &impl Fn(Option<&Path>) -> Result<Format, Stop>,
+) -> Result<Vec<PathBuf>, Stop> {
+    let mut seen = BTreeSet::new();
+    let one = |file: &PathBuf| {
+        let name = file.file_name().map(Path::new).unwrap_or(file);
+        let ending = match (args.format, format(Some(name))) {
+            (None, Ok(_)) => None,
+            (_, Ok(Format::Csv)) => Some("csv"),
+            (_, Ok(Format::Jsonl)) => Some("jsonl"),
+            (_, Ok(Format::Parquet)) => Some("parquet"),
+            (_, Err(stop)) => return Err(stop),
+        };
+        let output =
+            folder.join(ending.map_or_else(|| name.to_owned(), |ending| name.with_extension(ending)));
+        if !seen.insert(output.clone()) {
+            let message = format!("{}: the answers of another file go there too", output.display());
+            return Err(Stop::input(message).help("give the files different names"));
+        }
+        Ok(output)
+    };
+    let all = files.iter().map(one).collect::<Result<Vec<_>, _>>()?;
+    let inside = |output: &PathBuf| {
+        files.iter().any(|file| file.canonicalize().ok() == output.canonicalize().ok() && output.exists())
+    };
+    match all.iter().find(|output| inside(output)) {
+        Some(output) => Err(Stop::input(format!("-o {}: that is the file of the data", output.display()))
+            .help("name another folder")),
+        None => Ok(all),
+    }
+}
+
+/// Length and time of the last change, by which it is told whether a file is as it was.
+fn state(file: &Path) -> (u64, u128) {
+    let about = file.metadata().ok();
+    let changed = about.as_ref().and_then(|about| about.modified().ok());
+    let since = changed.and_then(|time| time.duration_since(std::time::UNIX_EPOCH).ok());
+    (about.map_or(0, |about| about.len()), since.map_or(0, |since| since.as_nanos()))
+}

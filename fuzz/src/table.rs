@@ -2,7 +2,7 @@
 
 use crate::{model_file, promise};
 use givens::Goal;
-use givens_io::{Answer, Format, Model, Tracks, Truth, parse_tracks, parse_truth, write_answers};
+use givens_io::{Answer, AnswerWriter, Format, Layout, Model, Tracks, Truth, parse_tracks, parse_truth};
 use std::num::NonZeroUsize;
 use std::sync::OnceLock;
 
@@ -105,11 +105,18 @@ fn follow(model: &Model, tracks: &Tracks, text: &str) {
             None => Answer::default(),
         });
     }
-    for format in [Format::Csv, Format::Jsonl] {
+    let written = |format| {
         let mut out = Vec::new();
-        write_answers(&mut out, format, model, tracks, &answers, false, NonZeroUsize::new(1))
-            .expect("there is memory");
-        let out = String::from_utf8(out).expect("it is UTF-8");
+        let (layout, threads) = (Layout::Covariances, NonZeroUsize::new(1));
+        let writer = AnswerWriter { format, layout, model, tracks, smoothed: false, gated: false, threads };
+        // dates may be beyond what nanoseconds count
+        let done = writer.write(&mut out, &answers);
+        assert!(done.is_ok() || format == Format::Parquet && tracks.is_dated());
+        out
+    };
+    written(Format::Parquet);
+    for format in [Format::Csv, Format::Jsonl] {
+        let out = String::from_utf8(written(format)).expect("it is UTF-8");
         for text in [text, &out] {
             match parse_truth(text, "t.csv", model, tracks) {
                 Err(errors) => promise::well_placed(text, &errors),

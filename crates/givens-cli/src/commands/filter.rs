@@ -89,7 +89,8 @@ fn one(args: &FilterArgs, task: &str, goals: Goals, counted: Option<&AtomicUsize
     let target =
         Target { output, format, layout, resumable: resumable.map(|(every, path)| (every, path, identity)) };
     match goals[..] {
-        [goal] => alone(&plan, goal, manner, target, pages),
+        // among files, a track is what it is in a table of several
+        [goal] if counted.is_none() => alone(&plan, goal, manner, target, pages),
         _ if target.resumable.is_none() && !pages.drawn() && plan.tracks.in_turn() => {
             in_turn(&plan, &goals, manner, &target)
         }

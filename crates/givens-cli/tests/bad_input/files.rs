@@ -40,10 +40,10 @@ fn wrong_outputs() {
                 &["--states ./a.csv: this is the file of -o too"],
             ),
             (
-                "parquet",
+                "arrow",
                 NONE,
-                "filter model.toml data.csv -o out.parquet",
-                &["-o out.parquet: this version does not write .parquet", "--format csv"],
+                "filter model.toml data.csv -o out.arrow",
+                &["-o out.arrow: this version does not write .arrow", "--format csv"],
             ),
             (
                 "plot",

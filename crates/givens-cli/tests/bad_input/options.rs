@@ -224,10 +224,10 @@ fn wrong_parameters_and_lists() {
                 &["unexpected argument '--reprot'", "--report"],
             ),
             (
-                "parquet",
+                "arrow",
                 NONE,
-                "filter model.toml data.csv -o out.csv --format parquet",
-                &["invalid value 'parquet'", "csv, jsonl"],
+                "filter model.toml data.csv -o out.csv --format arrow",
+                &["invalid value 'arrow'", "csv, jsonl, parquet"],
             ),
         ],
     );

@@ -1,11 +1,13 @@
 //! What a user sees, as the design says it: outputs, rows, tracks, times, smoothers, figures, simulations, tables.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::format_collect)]
 
+mod columns;
 #[path = "../common/mod.rs"]
 mod common;
 mod compare;
 mod continuous;
 mod failures;
+mod folders;
 mod gate;
 mod judged;
 mod large;

@@ -1,0 +1,180 @@
+//! Many files: cut by tracks, run one by one, gone on with.
+
+use super::common::Folder;
+use super::folder;
+use core::fmt::Write;
+use core::time::Duration;
+use std::collections::BTreeMap;
+use std::fs;
+use std::thread::sleep;
+
+/// Rows of so many tracks, mixed, of different lengths, some without a measure.
+fn table(tracks: usize, longest: usize) -> String {
+    let mut text = String::from("time,track_id,z,remark\n");
+    for k in 0..longest {
+        for track in (0..tracks).filter(|track| k < 3 + track * 7 % longest) {
+            let z =
+                if (k + track) % 5 == 3 { String::new() } else { ((k * 37 + track * 11) % 101).to_string() };
+            writeln!(text, "{},ship {track},{z},\"a, b\"", k + track % 2).unwrap();
+        }
+    }
+    text
+}
+
+/// The lines of every track, by the second cell.
+fn by_track(texts: &[String]) -> BTreeMap<String, Vec<String>> {
+    let mut found = BTreeMap::<String, Vec<String>>::new();
+    for text in texts {
+        for line in text.lines().skip(1) {
+            let track = line.split(',').nth(1).unwrap();
+            found.entry(track.to_owned()).or_default().push(line.to_owned());
+        }
+    }
+    found
+}
+
+fn texts(folder: &Folder, name: &str) -> Vec<String> {
+    let mut files: Vec<_> =
+        fs::read_dir(folder.path(name)).unwrap().map(|file| file.unwrap().path()).collect();
+    files.sort();
+    files.iter().map(|file| fs::read_to_string(file).unwrap()).collect()
+}
+
+#[test]
+fn each_track_has_the_bytes_that_it_has_in_one_table_however_they_are_cut() {
+    let folder = folder("cut");
+    folder.write("ships.csv", &table(23, 40));
+    for command in ["filter", "smooth"] {
+        let whole = folder.run(&format!("{command} walk.toml ships.csv")).good().stdout;
+        let expected = by_track(&[whole]);
+        assert_eq!(expected.len(), 23);
+        for rows in [1, 90, 100_000] {
+            let _ = fs::remove_dir_all(folder.path("parts"));
+            let _ = fs::remove_dir_all(folder.path("out"));
+            folder.run(&format!("partition ships.csv --by track_id -o parts --rows {rows}")).good();
+            for threads in [1, 3] {
+                let line = format!("{command} walk.toml parts -o out --format csv --threads {threads}");
+                let done = folder.run(&line).good();
+                let files = fs::read_dir(folder.path("parts")).unwrap().count();
+                assert!(files == texts(&folder, "out").len() && (rows != 1 || files == 23), "{files}");
+                assert!(done.stderr.contains(" of 23 tracks in "), "{}", done.stderr);
+                assert!(
+                    by_track(&texts(&folder, "out")) == expected,
+                    "{command}, {rows} rows, {threads} threads"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn tables_of_either_kind_are_cut_together_and_sorted_by_time() {
+    let folder = folder("together");
+    folder
+        .write("a.csv", "time,track_id,z\n2,a,1\n1,b,2\n0,a,3\n")
+        .write("b.csv", "time,track_id,z\n1,a,\n0,b,4\n");
+    let done = folder.run("partition a.csv b.csv --by track_id -o parts").good();
+    assert_eq!(done.stderr, "5 rows of 2 tracks in 1 file\n");
+    // the cut tables are tables again
+    folder.run("partition parts --by track_id -o again").good();
+    let filtered = folder.run("filter walk.toml again/part-00000.parquet").good().cells();
+    let keys: Vec<String> = filtered[1..].iter().map(|row| row[..2].join("")).collect();
+    assert_eq!(keys, ["0a", "1a", "2a", "0b", "1b"]);
+}
+
+#[test]
+fn what_cannot_be_cut_is_told_by_table_row_and_column() {
+    let folder = folder("uncut");
+    folder.write("good.csv", "time,track_id,z\n1,a,1\n").write("less.csv", "time,track_id\n1,a\n");
+    folder
+        .write("hole.csv", "time,track_id,z\n1,a,1\n2,,1\n")
+        .write("late.csv", "time,track_id,z\n1,a,1\n,a,1\n");
+    for (line, words) in [
+        (
+            "good.csv --by ship -o p1",
+            "good.csv: the table has no column `ship`: it has `time`, `track_id`, `z`",
+        ),
+        ("good.csv less.csv --by track_id -o p2", "less.csv: it has 2 columns, and good.csv has 3"),
+        ("hole.csv --by track_id -o p3", "hole.csv: row 2: a row has no `track_id`"),
+        ("late.csv --by track_id -o p4", "late.csv: row 2: a row has no time"),
+        ("none*.csv --by track_id -o p6", "none*.csv: no file has such a name"),
+    ] {
+        let found = folder.run(&format!("partition {line}"));
+        assert!(found.code == 2 && found.stderr.contains(words), "{line}: {}", found.stderr);
+    }
+    folder.run("partition good.csv --by track_id -o parts").good();
+    let again = folder.run("partition good.csv --by track_id -o parts");
+    assert!(again.code == 2 && again.stderr.contains("there is a part-00000.parquet"), "{}", again.stderr);
+}
+
+#[test]
+fn a_file_that_cannot_be_read_and_a_track_that_fails_leave_the_others() {
+    let folder = folder("some_fail");
+    fs::create_dir(folder.path("in")).unwrap();
+    folder.write("in/a.csv", "time,z\n1,2\n").write("in/b.csv", "time,z\n1,x\n");
+    folder
+        .write("in/c.csv", "time,track_id,z\n1,a,1\n1,b,1e200\n2,b,-1e200\n")
+        .write("in/notes.txt", "no table");
+    let found = folder.run("filter walk.toml in -o out");
+    assert_eq!(found.code, 1, "{}", found.stderr);
+    assert!(found.stderr.contains("in/b.csv:2:3: `x` in `z` (column 2) is not a number"), "{}", found.stderr);
+    assert!(
+        found.stderr.contains("in/c.csv:3: track b, t = 1, step 1: the filter failed"),
+        "{}",
+        found.stderr
+    );
+    assert!(found.stderr.contains("of 3 tracks in 2 files"), "{}", found.stderr);
+    assert!(folder.read("out/a.csv").lines().count() == 2 && !folder.path("out/b.csv").exists());
+    assert_eq!(folder.read("out/c.csv").lines().count(), 2);
+}
+
+#[test]
+fn what_is_for_one_table_is_refused_and_nothing_is_written() {
+    let folder = folder("refused");
+    fs::create_dir(folder.path("in")).unwrap();
+    folder.write("in/a.csv", "time,z\n1,2\n");
+    for (line, words) in [
+        ("in", "in is of several tables, and there is no -o"),
+        ("in -o -", "-o -: of several tables the answers are several files"),
+        ("in -o walk.toml", "-o walk.toml: of several tables the answers are several files"),
+        ("in -o in", "-o in/a.csv: that is the file of the data"),
+        ("in -o out --truth truth.csv", "--truth is for one table"),
+        ("in -o out --plot a.svg", "--plot is for one table"),
+        ("in -o out --method xyz", "xyz"),
+    ] {
+        let found = folder.run(&format!("filter walk.toml {line}"));
+        assert!(found.code == 2 && found.stderr.contains(words), "{line}: {}", found.stderr);
+    }
+    assert!(!folder.path("out").exists());
+}
+
+#[test]
+fn a_run_over_files_that_is_killed_is_gone_on_with() {
+    let folder = folder("killed");
+    folder.write("ships.csv", &table(60, 3000));
+    folder.run("partition ships.csv --by track_id -o parts --rows 4000").good();
+    folder.run("smooth walk.toml parts -o unbroken").good();
+    let line = "smooth walk.toml parts -o out --resume --threads 1";
+    let words: Vec<&str> = line.split_whitespace().collect();
+    let mut child = folder.command(&words).spawn().unwrap();
+    let done = || fs::read_dir(folder.path("out")).map_or(0, |files| files.count());
+    // two files and the checkpoint
+    while done() < 3 && child.try_wait().unwrap().is_none() {
+        sleep(Duration::from_millis(2));
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+    let plain = folder.run("smooth walk.toml parts -o out");
+    assert!(plain.code == 2 && plain.stderr.contains("add --resume"), "{}", plain.stderr);
+    let other = folder.run("smooth walk.toml parts -o out --resume --method ckf");
+    assert!(other.code == 2 && other.stderr.contains("of another"), "{}", other.stderr);
+    let last = folder.run(line).good();
+    assert!(last.stderr.starts_with("goes on: "), "{}", last.stderr);
+    assert!(last.stderr.contains(" of 60 tracks in "), "{}", last.stderr);
+    for file in fs::read_dir(folder.path("unbroken")).unwrap() {
+        let file = file.unwrap();
+        let own = folder.path("out").join(file.file_name());
+        assert!(fs::read(own).unwrap() == fs::read(file.path()).unwrap(), "{}", file.path().display());
+    }
+    assert!(!folder.path("out/run.checkpoint").exists());
+}

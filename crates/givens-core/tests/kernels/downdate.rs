@@ -124,6 +124,25 @@ fn what_stands_below_a_pivot_whose_square_is_rounding_stays() {
 }
 
 #[test]
+fn what_goes_with_a_pivot_whose_square_is_rounding_goes() {
+    for n in 3..=7 {
+        for k in 1..n - 1 {
+            let entry = |i: usize, j: usize| Real::sin(1.0 + 1.7 * i as f64 + 0.6 * (j * j) as f64);
+            let at = |i: usize, j: usize| if i == j { 1.0 + entry(i, j).abs() } else { entry(i, j) };
+            let l = Matrix::new(n, n, |i, j| match (i, j) {
+                _ if j > i => 0.0,
+                _ if i == k && j == k => 1e-9,
+                _ => at(i, j),
+            });
+            let v: Vec<f64> = (0..n).map(|i| l.at(i, k)).collect();
+            let found = downdated::<f64>(&l, &v).unwrap();
+            let expected = Matrix::new(n, n, |i, j| if j == k { 0.0 } else { l.at(i, j) });
+            assert_eq!(found.data, expected.data, "{n} {k}");
+        }
+    }
+}
+
+#[test]
 fn what_is_not_a_number_fails() {
     assert_eq!(downdate(&mut [f64::NAN], 1, 1, &mut [1.0]).failed(), Some(0));
     assert_eq!(downdate(&mut [1.0], 1, 1, &mut [f64::NAN]).failed(), Some(0));

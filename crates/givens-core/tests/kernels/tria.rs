@@ -178,7 +178,7 @@ fn a_long_row_may_have_nothing_left_wherever_it_stands() {
 
 #[test]
 fn rows_below_those_that_are_told_stay_as_they_are() {
-    for (n, k) in [(3, 5), (6, 21), (20, 60), (23, 60), (40, 70)] {
+    for (n, k) in [(3, 5), (6, 21), (20, 60), (21, 60), (22, 60), (23, 60), (40, 70)] {
         let full = mixed(n + 5, k);
         for stride in [k.next_multiple_of(4), k.next_multiple_of(4) + 1] {
             let mut memory = full.memory::<f64>(stride, 7.0);

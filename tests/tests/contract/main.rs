@@ -12,6 +12,8 @@ mod faults;
 mod linear;
 mod memory;
 mod order;
+mod parameters;
+mod periods;
 mod precision;
 mod repeated;
 mod rules;

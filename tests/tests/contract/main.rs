@@ -11,6 +11,7 @@ mod equivalences;
 mod faults;
 mod linear;
 mod memory;
+mod multiplicative;
 mod order;
 mod parameters;
 mod periods;
@@ -21,6 +22,7 @@ mod side_by_side;
 mod singular;
 mod smoothers;
 mod stepping;
+mod varying;
 mod work;
 
 use givens::registry::Choice;

@@ -1,6 +1,6 @@
 //! A model's own parameters are those that every method moves it by, and those that are set afterwards too.
 
-use givens::filter::Gaussian;
+use givens::filter::{CdCkf1, CdEkf, Filter, Gaussian, Lskf, Method, Over, SrCdCkf, SrCdCkf2};
 use givens::model::{At, Noise, Observation, Sde, Transition, Varies};
 use givens::registry::AnyFilter;
 use givens::scalar::Real;
@@ -124,4 +124,23 @@ fn a_parameter_is_the_number_that_it_stands_for() {
         let expected = f64::exp(-0.25 * 0.25) * before;
         assert!((after - expected).abs() < 3e-3 * expected.abs(), "{name}: {before} {after}");
     }
+}
+
+/// Mean and covariance of a filter of this type after a prediction.
+fn predicted<X: Over<Half>>(method: X, model: &Half) -> Vec<f64> {
+    let prior = Gaussian::from_std(&[2.0, 1.0], &[0.5, 0.7]).unwrap();
+    let mut filter: Filter<_, _, _, _> = method.start(model, 0.0, &prior).unwrap();
+    filter.predict(0.75).unwrap();
+    [filter.mean(), &filter.cov()].concat()
+}
+
+#[test]
+fn so_it_is_for_the_type_of_a_method() {
+    macro_rules! types {
+        ($($method:ident)*) => {$(
+            let of = |model: Half| predicted($method::DEFAULT, &model);
+            assert_eq!(of(Half::Parameter), of(Half::Written), "{}", stringify!($method));
+        )*};
+    }
+    types!(CdEkf CdCkf1 SrCdCkf SrCdCkf2 Lskf);
 }

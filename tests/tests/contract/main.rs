@@ -9,6 +9,7 @@ mod continuous_types;
 mod distinct;
 mod equivalences;
 mod faults;
+mod flow_faults;
 mod linear;
 mod memory;
 mod multiplicative;

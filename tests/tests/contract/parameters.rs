@@ -1,6 +1,6 @@
 //! A model's own parameters are those that every method moves it by, and those that are set afterwards too.
 
-use givens::filter::{CdCkf1, CdEkf, Filter, Gaussian, Lskf, Method, Over, SrCdCkf, SrCdCkf2};
+use givens::filter::{CdCkf1, CdEkf, Filter, Gaussian, Lskf, Over, SrCdCkf, SrCdCkf2};
 use givens::model::{At, Noise, Observation, Sde, Transition, Varies};
 use givens::registry::AnyFilter;
 use givens::scalar::Real;

@@ -38,3 +38,19 @@ pub(super) fn errors_above<T: Real>(
 pub(super) fn norm<T: Real>(row: &[T]) -> T {
     dot(row, row).sqrt()
 }
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn errors_of_the_rows_above_come_in_as_often_as_these_are_taken_away() {
+        // the last row is 2, −3 and 5 times those above it
+        let mut l = [4.0, 0.0, 0.0, 0.0, -1.0, 2.0, 0.0, 0.0, 6.0, -7.0, 3.0, 0.0, 41.0, -41.0, 15.0, 9.0];
+        let stated = l;
+        let sum = super::errors_above(&mut l, 4, 3, |a, row| {
+            assert_eq!(row, &stated[4 * a..=5 * a]);
+            [1.0, 10.0, 100.0][a]
+        });
+        assert_eq!(sum, 532.0);
+        assert_eq!(l, stated);
+    }
+}

@@ -57,12 +57,12 @@ impl PointRule for Unscented {
             }
         };
         finite("beta", self.beta)?;
-        if !(self.alpha > 0.0 && self.alpha.is_finite()) {
+        if self.alpha.is_nan() || self.alpha <= 0.0 {
             return Err(RuleError { option: "alpha", value: self.alpha, must: "must be above zero" });
         }
         let kappa = self.kappa.unwrap_or(3.0 - n as f64);
         let beside = n as f64 + kappa;
-        if !(beside > 0.0 && beside.is_finite()) {
+        if beside.is_nan() || beside <= 0.0 {
             let must = "n + kappa must be above zero (n: number of states)";
             return Err(RuleError { option: "kappa", value: kappa, must });
         }
@@ -82,5 +82,49 @@ impl PointRule for Unscented {
     }
     fn pairs(&self, n: usize) -> Pairs {
         self.axes(n)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Unscented;
+    use crate::rule::{Pairs, PointRule};
+
+    #[test]
+    fn options_that_leave_no_points_are_refused_by_name() {
+        const FAR: &str = "must stand between 1e-9 and 1e9 away";
+        const N: usize = 3;
+        for (alpha, beta, kappa, option, must) in [
+            (0.0, 0.0, 0.0, "alpha", "must be above zero"),
+            (-1.0, 0.0, 0.0, "alpha", "must be above zero"),
+            (f64::NAN, 0.0, 0.0, "alpha", "must be above zero"),
+            (f64::INFINITY, 0.0, 0.0, "alpha", FAR),
+            (1e-10, 0.0, 0.0, "alpha", FAR),
+            (1.0, f64::INFINITY, 0.0, "beta", "must be a finite number"),
+            (1.0, f64::NAN, 0.0, "beta", "must be a finite number"),
+            (1.0, 0.0, -3.0, "kappa", "n + kappa must be above zero"),
+            (1.0, 0.0, f64::NAN, "kappa", "n + kappa must be above zero"),
+            (1.0, 0.0, f64::INFINITY, "kappa", FAR),
+            (1.0, 0.0, 1e19, "kappa", FAR),
+        ] {
+            let told = Unscented { alpha, beta, kappa: Some(kappa) }.check(N).err();
+            let told = told.map(|error| (error.option, error.must.contains(must)));
+            assert_eq!(told, Some((option, true)), "{alpha} {beta} {kappa}");
+        }
+        assert!(Unscented { alpha: 1e-8, beta: 2.0, kappa: Some(-2.9) }.check(N).is_ok());
+    }
+
+    #[test]
+    fn the_points_weigh_one_together() {
+        for (alpha, kappa, n) in [(1.0, None, 2), (0.5, Some(1.0), 4), (1e-3, Some(0.0), 7)] {
+            let rule = Unscented { alpha, beta: 2.0, kappa };
+            let radius2 = if let Pairs::Axes { radius2, .. } = rule.pairs(n) { radius2 } else { f64::NAN };
+            // each of the 2 n points along the axes weighs 1/(2 radius²)
+            let weight = rule.centre(n).unwrap_or(f64::NAN) + n as f64 / radius2;
+            assert!(
+                (weight - 1.0).abs() < 1e-15 * n as f64 / radius2.min(1.0),
+                "{alpha} {kappa:?}: {weight}"
+            );
+        }
     }
 }

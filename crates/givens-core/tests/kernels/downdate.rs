@@ -80,6 +80,68 @@ proptest! {
     }
 }
 
+/// A pivot that is noise, of L and of what is taken: what stands below it stays in the rows that it belongs to.
+fn is_kept_below_noise(pivot: f64, taken: f64, error: f64) {
+    for n in 3..=7 {
+        for k in 1..n - 1 {
+            let entry = |i: usize, j: usize| Real::sin(1.0 + 1.7 * i as f64 + 0.6 * (j * j) as f64);
+            let l = Matrix::new(n, n, |i, j| match i.cmp(&j) {
+                core::cmp::Ordering::Equal if i == k => pivot,
+                core::cmp::Ordering::Equal => 1.0 + entry(i, j).abs(),
+                core::cmp::Ordering::Greater => entry(i, j),
+                core::cmp::Ordering::Less => 0.0,
+            });
+            // of the directions behind pivot k, and of none before
+            let u: Vec<f64> =
+                (0..n).map(|j| if j > k { 0.5 * entry(j, k) / n as f64 } else { 0.0 }).collect();
+            let mut v = moved(&l, &u, 1.0);
+            v[k] = taken;
+            let expected = difference(&l, &v);
+            let found = downdated::<f64>(&l, &v).unwrap();
+            assert!(is_factor(&found), "{n} {k}: {found:?}");
+            assert!((0..n).all(|i| found.at(i, k) == 0.0), "{n} {k}: {found:?}");
+            for (i, j) in (0..n).flat_map(|i| (0..n).map(move |j| (i, j))) {
+                let off = (found.outer().at(i, j) - expected.at(i, j)).abs() / (l.norm(i) * l.norm(j));
+                let allowed = if i == k || j == k { error } else { 1e-14 };
+                assert!(off <= allowed, "{n} {k}: {i} {j} {off:e}");
+            }
+        }
+    }
+}
+
+#[test]
+fn what_stands_below_a_pivot_of_rounding_stays() {
+    for taken in [1e-17, -1e-17] {
+        is_kept_below_noise(1e-17, taken, 1e-14);
+    }
+}
+
+#[test]
+fn what_stands_below_a_pivot_whose_square_is_rounding_stays() {
+    for taken in [1e-9, -1e-9] {
+        is_kept_below_noise(1e-9, taken, 1e-8);
+    }
+}
+
+#[test]
+fn what_goes_with_a_pivot_whose_square_is_rounding_goes() {
+    for n in 3..=7 {
+        for k in 1..n - 1 {
+            let entry = |i: usize, j: usize| Real::sin(1.0 + 1.7 * i as f64 + 0.6 * (j * j) as f64);
+            let at = |i: usize, j: usize| if i == j { 1.0 + entry(i, j).abs() } else { entry(i, j) };
+            let l = Matrix::new(n, n, |i, j| match (i, j) {
+                _ if j > i => 0.0,
+                _ if i == k && j == k => 1e-9,
+                _ => at(i, j),
+            });
+            let v: Vec<f64> = (0..n).map(|i| l.at(i, k)).collect();
+            let found = downdated::<f64>(&l, &v).unwrap();
+            let expected = Matrix::new(n, n, |i, j| if j == k { 0.0 } else { l.at(i, j) });
+            assert_eq!(found.data, expected.data, "{n} {k}");
+        }
+    }
+}
+
 #[test]
 fn what_is_not_a_number_fails() {
     assert_eq!(downdate(&mut [f64::NAN], 1, 1, &mut [1.0]).failed(), Some(0));

@@ -82,6 +82,61 @@ fn rows_of_a_sweep() {
     }
 }
 
+/// Row `lost` repeats one above it: it has nothing left, and powers of two in all rows change no digit.
+fn of_repeated_rows<T: Real>(powers: [i32; 2]) {
+    let repeats = |lost: usize, i: usize| if i == lost { lost - 1 } else { i };
+    for (n, columns) in [(2_usize, 4_usize), (7, 22), (13, 40), (30, 90), (40, 170)] {
+        for lost in [1, n / 2, n - 1] {
+            for stride in [columns + 1, columns.next_multiple_of(8)] {
+                let triangular = |unit: f64| {
+                    let a = Matrix::new(n, columns, |i, j| unit * entry(repeats(lost, i), j));
+                    let mut a = a.memory::<T>(stride, 0.0);
+                    assert!(tria(&mut a, n, columns, stride).failed().is_none());
+                    Matrix::of(n, n, &a, stride)
+                };
+                let plain = triangular(1.0);
+                assert_eq!(plain.at(lost, lost), 0.0, "{n} × {columns}: {lost}");
+                for unit in powers.map(|power| 2_f64.powi(power)) {
+                    let expected = Matrix::new(n, n, |i, j| unit * plain.at(i, j));
+                    assert_eq!(triangular(unit).data, expected.data, "{n} × {columns}: {lost} in {unit}");
+                }
+            }
+        }
+    }
+    for (d, n) in [(2, 3), (3, 7), (6, 20), (20, 9), (20, 30)] {
+        for (lost, own) in [(1, 0.0), (d / 2, 1e-17), (d - 1, 1e-17)] {
+            let size = d + n;
+            let swept = |unit: f64| {
+                let a = Matrix::new(size, size, |i, j| match (i < d, j < d) {
+                    (true, false) => unit * entry(repeats(lost, i), j),
+                    (false, true) => 0.0,
+                    // a measure that repeats another has noise of its own that is rounding
+                    (true, true) if i == lost && j == i => unit * own,
+                    (true, true) if j <= repeats(lost, i) => unit * entry(repeats(lost, i), j).abs(),
+                    _ => f64::from(i == j && i >= d),
+                });
+                let mut a = a.memory::<T>(size, 0.0);
+                let mut scratch = vec![T::zero(); sweep_scratch(d, n)];
+                assert!(sweep(&mut a, d, n, &mut scratch).failed().is_none());
+                Matrix::of(size, size, &a, size)
+            };
+            let plain = swept(1.0);
+            assert_eq!(plain.at(lost, lost), 0.0, "{d}, {n}: {lost}");
+            for unit in powers.map(|power| 2_f64.powi(power)) {
+                let expected =
+                    Matrix::new(size, size, |i, j| if i < d { unit } else { 1.0 } * plain.at(i, j));
+                assert_eq!(swept(unit).data, expected.data, "{d}, {n}: {lost} in {unit}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_row_that_repeats_another_has_nothing_left_in_any_units() {
+    of_repeated_rows::<f64>([-60, 60]);
+    of_repeated_rows::<f32>([-14, 14]);
+}
+
 /// A sweep of (pivot | z) over the unit matrix is a rotation, whose rows keep their lengths, and the row's own goes to the
 /// pivot.
 fn is_a_rotation<T: Real>(row: [f64; 4]) {

@@ -10,6 +10,7 @@ mod cholesky;
 mod downdate;
 mod faint;
 mod matrix;
+mod product;
 mod solve;
 mod sweep;
 mod tria;

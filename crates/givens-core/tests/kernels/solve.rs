@@ -1,7 +1,7 @@
 //! Substitution undoes multiplication, also by a factor in echelon form.
 
 use super::matrix::{Matrix, factor};
-use givens_core::kernels::{divide_lower, divide_lower_transposed, solve_lower};
+use givens_core::kernels::{divide_lower, divide_lower_transposed, solve_lower, solve_lower_rows};
 use proptest::prelude::*;
 
 /// A factor, some of whose pivots are zero with their columns, and B of as many columns.
@@ -53,5 +53,15 @@ proptest! {
             let found = Matrix { rows: 1, columns: n, data: rhs };
             prop_assert!(close(&found, &Matrix::new(1, n, |_, j| b.at(i, j))));
         }
+    }
+
+    #[test]
+    fn several_columns_are_solved_as_each_alone((l, b) in parts()) {
+        let (n, stride) = (l.rows, l.rows + 1);
+        let memory = l.memory::<f64>(stride, f64::NAN);
+        let mut product = l.times(&transposed(&b)).data;
+        solve_lower_rows(&memory, stride, &mut product, b.rows);
+        let found = transposed(&Matrix { rows: n, columns: b.rows, data: product });
+        prop_assert!(close(&found, &b), "{found:?} for {b:?}");
     }
 }

@@ -177,6 +177,19 @@ fn a_long_row_may_have_nothing_left_wherever_it_stands() {
 }
 
 #[test]
+fn rows_below_those_that_are_told_stay_as_they_are() {
+    for (n, k) in [(3, 5), (6, 21), (20, 60), (21, 60), (22, 60), (23, 60), (40, 70)] {
+        let full = mixed(n + 5, k);
+        for stride in [k.next_multiple_of(4), k.next_multiple_of(4) + 1] {
+            let mut memory = full.memory::<f64>(stride, 7.0);
+            let stated = memory.clone();
+            assert!(tria(&mut memory, n, k, stride).failed().is_none());
+            assert_eq!(memory[n * stride..], stated[n * stride..], "{n} × {k} in {stride}");
+        }
+    }
+}
+
+#[test]
 fn what_is_not_a_number_stays_none_in_long_rows_too() {
     for (n, k, bad) in [(18, 60_usize, 0), (18, 60, 5), (40, 120, 39)] {
         let whole = k.next_multiple_of(4);

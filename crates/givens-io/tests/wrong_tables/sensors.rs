@@ -63,3 +63,23 @@ fn a_shared_column_needs_a_sensor() {
     assert!(z(0)[2].is_nan() && z(1)[0].is_nan() && z(1)[1].is_nan());
     assert_eq!(z(1)[2], 2.0);
 }
+
+#[test]
+fn an_empty_cell_of_a_shared_column_needs_no_sensor() {
+    let tracks = parse_tracks("time,range,bearing,sensor\n1,,3,\n", "d.csv", &sharing()).unwrap();
+    let z = tracks.tracks[0].rows.row(0).unwrap().unwrap().z;
+    assert!(z[0].is_nan() && z[2].is_nan());
+    assert_eq!(z[1], 3.0);
+}
+
+#[test]
+fn a_row_of_times_names_its_sensor_where_columns_are_shared() {
+    let path = std::env::temp_dir().join(format!("givens-io-shared-{}.csv", std::process::id()));
+    std::fs::write(&path, "time,sensor\n1,gps\n2,\n").unwrap();
+    let told = givens_io::read_times(path.to_str().unwrap(), &sharing()).unwrap_err();
+    std::fs::remove_file(&path).unwrap();
+    let first = told.first().unwrap();
+    assert_eq!((first.position().0, told.errors.len()), (3, 1), "{told}");
+    assert!(first.message.contains("the sensors share the column `range`"), "{told}");
+    assert!(first.help.as_ref().is_some_and(|help| help.contains("name a `sensor`")), "{told}");
+}

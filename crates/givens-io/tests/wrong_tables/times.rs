@@ -108,6 +108,10 @@ fn a_gap_of_no_whole_number_of_steps_is_told() {
     let model = changed("[dynamics]", "step = 0.5");
     assert!(parse_tracks("time,px\n1,1\n1.5000001,1\n", "d.csv", &model).is_ok());
     assert!(parse_tracks("time,px\n1700000000.1,1\n1700000000.6,1\n", "d.csv", &model).is_ok());
+    // a hundredth of a second, between times that are known to a quarter of a microsecond
+    let model = changed("[dynamics]", "step = 0.01");
+    let table = "time,px\n1700000000.01,1\n1700000000.02,1\n1700000000.03,1\n1700000000.07,1\n";
+    assert!(parse_tracks(table, "d.csv", &model).is_ok());
     let text = MODEL
         .replace(" + u_a", "")
         .replace("[dynamics]", "[dynamics]\nstep = 0.5")

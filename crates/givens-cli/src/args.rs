@@ -1,5 +1,11 @@
 //! What the user typed.
 
+mod format;
+mod partition;
+
+pub use format::{FormatArg, LayoutArg};
+pub use partition::PartitionArgs;
+
 use crate::message::Stop;
 use crate::numbers::{number, runs, seconds, seed, threads, whole};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
@@ -119,26 +125,6 @@ pub struct MethodArgs {
     pub settings: Vec<String>,
 }
 
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub enum FormatArg {
-    /// One line per row: means, standard deviations, NIS
-    Csv,
-    /// One JSON object per row, with all matrices, in numbers that read back exactly
-    Jsonl,
-    /// The columns of the CSV, or others by --layout
-    Parquet,
-}
-
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub enum LayoutArg {
-    /// The columns of the CSV
-    Wide,
-    /// These, and of each row the lower triangle of its covariance
-    Covariances,
-    /// A row for each state: its mean and standard deviation
-    Tidy,
-}
-
 /// How the path of a continuous model is followed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum SchemeArg {
@@ -238,22 +224,6 @@ pub struct SimulateArgs {
     /// Where to write the true states
     #[arg(long, value_name = "FILE")]
     pub states: Option<PathBuf>,
-}
-
-#[derive(Debug, ClapArgs)]
-pub struct PartitionArgs {
-    /// Tables (CSV or Parquet) with the same columns; folders and patterns of them
-    #[arg(required = true)]
-    pub data: Vec<String>,
-    /// The column that names the track of each row
-    #[arg(long, value_name = "COLUMN")]
-    pub by: String,
-    /// The folder of the files
-    #[arg(long, short, value_name = "FOLDER")]
-    pub output: PathBuf,
-    /// Rows that a file has at least
-    #[arg(long, value_name = "ROWS", default_value_t = 1_000_000, value_parser = whole)]
-    pub rows: usize,
 }
 
 #[derive(Debug, ClapArgs)]

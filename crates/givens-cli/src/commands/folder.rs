@@ -50,6 +50,9 @@ pub fn files(data: &str) -> Result<Option<Vec<PathBuf>>, Stop> {
     Ok(list_files(data, &["parquet", "csv"])?)
 }
 
+/// A file that is to be run, where its answers go, and its [`state`].
+type Left<'f> = (&'f PathBuf, &'f PathBuf, (u64, u128));
+
 /// Runs `one` over each file, into the folder of `-o`.
 pub fn run(
     args: &FilterArgs,
@@ -81,73 +84,18 @@ pub fn run(
         let (checkpoint, done) = Checkpoint::open::<File>(&whole, identity, every)?;
         (kept, before) = (Some(checkpoint), done);
     }
-    let mut come = Come::default();
-    let mut left = Vec::new();
-    for (file, output) in files.iter().zip(&outputs) {
-        let (name, state) = (file.display().to_string(), state(file));
-        match before.iter().position(|done| done.name == name && done.state == state && output.is_file()) {
-            Some(k) => come.add(before.swap_remove(k)),
-            None => left.push((file, output, state)),
-        }
-    }
+    let (mut come, left) = left(files, &outputs, before);
     if left.len() < files.len() {
-        say(&format!(
-            "goes on: {} of {} were done before",
-            files.len() - left.len(),
-            count(files.len(), "file")
-        ));
+        let done = files.len() - left.len();
+        say(&format!("goes on: {done} of {} were done before", count(files.len(), "file")));
     }
+    let begun = Instant::now();
     let cores = args.threads.or_else(|| available_parallelism().ok()).map_or(1, NonZeroUsize::get);
-    let workers = cores.min(left.len()).max(1);
-    let threads = NonZeroUsize::new((cores / workers).max(1));
-    let (begun, next) = (Instant::now(), AtomicUsize::new(0));
-    let shared = Mutex::new((&mut come, kept.as_mut(), None));
-    let bar = Progress::of_files(left.len());
-    bar.during(|done| {
-        let rows = AtomicUsize::new(0);
-        let work = || {
-            while let Some((file, output, state)) = left.get(next.fetch_add(1, Ordering::Relaxed)) {
-                let name = file.display().to_string();
-                let own = FilterArgs {
-                    data: name.clone(),
-                    output: Some((*output).clone()),
-                    resume: None,
-                    threads,
-                    ..args.clone()
-                };
-                let came = one(&own, &rows);
-                let mut shared = shared.lock().unwrap_or_else(PoisonError::into_inner);
-                let (come, kept, stop) = &mut *shared;
-                match came {
-                    Ok(Done { tracks, rows, log_likelihood, failures }) => {
-                        let file = File { name, state: *state, tracks, rows, log_likelihood, failures };
-                        if let Some(Err(error)) = kept.as_mut().map(|kept| kept.append(&file)) {
-                            *stop = Some(Stop::failed(error.to_string()));
-                        }
-                        come.add(file);
-                    }
-                    Err(refused) => come.refused.push(refused.message),
-                }
-                done.fetch_add(1, Ordering::Relaxed);
-                if stop.is_some() {
-                    next.store(left.len(), Ordering::Relaxed);
-                }
-            }
-        };
-        scope(|scope| {
-            for _ in 1..workers {
-                scope.spawn(work);
-            }
-            work();
-        });
-    });
-    let stop = shared.into_inner().unwrap_or_else(PoisonError::into_inner).2;
-    let seconds = begun.elapsed().as_secs_f64();
-    let per_core = come.rows as f64 / seconds.max(1e-9) / cores as f64;
-    let rate = if left.len() == files.len() {
-        format!(", {} rows a second of a core", Shown(per_core.round()))
-    } else {
-        String::new()
+    each(args, &left, cores, &mut come, kept.as_mut(), one)?;
+    let per_core = come.rows as f64 / begun.elapsed().as_secs_f64().max(1e-9) / cores as f64;
+    let rate = match left.len() {
+        all if all == files.len() => format!(", {per_core:.0} rows a second of a core"),
+        _ => String::new(),
     };
     say(&format!(
         "{}: {} of {} in {}, log-likelihood {:.3}{rate}",
@@ -157,11 +105,69 @@ pub fn run(
         count(files.len() - come.refused.len(), "file"),
         Shown(come.log_likelihood),
     ));
-    stop.map_or(Ok(()), Err)?;
     if come.refused.is_empty() {
         kept.into_iter().for_each(Checkpoint::remove);
     }
     come.end()
+}
+
+/// What another run has done, and what is left to do.
+fn left<'f>(files: &'f [PathBuf], outputs: &'f [PathBuf], mut before: Vec<File>) -> (Come, Vec<Left<'f>>) {
+    let (mut come, mut left) = (Come::default(), Vec::new());
+    for (file, output) in files.iter().zip(outputs) {
+        let (name, state) = (file.display().to_string(), state(file));
+        let done = |of: &File| of.name == name && of.state == state && output.is_file();
+        match before.iter().position(done) {
+            Some(k) => come.add(before.swap_remove(k)),
+            None => left.push((file, output, state)),
+        }
+    }
+    (come, left)
+}
+
+/// Runs `one` over each of the files, as many at a time as there are cores.
+fn each(
+    args: &FilterArgs,
+    left: &[Left],
+    cores: usize,
+    come: &mut Come,
+    kept: Option<&mut Checkpoint>,
+    one: impl Fn(&FilterArgs, &AtomicUsize) -> Result<Done, Stop> + Sync,
+) -> Result<(), Stop> {
+    let workers = cores.min(left.len()).max(1);
+    let threads = NonZeroUsize::new((cores / workers).max(1));
+    let (next, rows) = (AtomicUsize::new(0), AtomicUsize::new(0));
+    let shared = Mutex::new((come, kept, None));
+    let work = |done: &AtomicUsize| {
+        while let Some((file, output, state)) = left.get(next.fetch_add(1, Ordering::Relaxed)) {
+            let name = file.display().to_string();
+            let (data, output) = (name.clone(), Some((*output).clone()));
+            let came = one(&FilterArgs { data, output, resume: None, threads, ..args.clone() }, &rows);
+            let mut shared = shared.lock().unwrap_or_else(PoisonError::into_inner);
+            let (come, kept, stop) = &mut *shared;
+            match came {
+                Ok(Done { tracks, rows, log_likelihood, failures }) => {
+                    let file = File { name, state: *state, tracks, rows, log_likelihood, failures };
+                    if let Some(Err(error)) = kept.as_mut().map(|kept| kept.append(&file)) {
+                        *stop = Some(Stop::failed(error.to_string()));
+                        next.store(left.len(), Ordering::Relaxed);
+                    }
+                    come.add(file);
+                }
+                Err(refused) => come.refused.push(refused.message),
+            }
+            done.fetch_add(1, Ordering::Relaxed);
+        }
+    };
+    Progress::of_files(left.len()).during(|done| {
+        scope(|scope| {
+            for _ in 1..workers {
+                scope.spawn(|| work(done));
+            }
+            work(done);
+        });
+    });
+    shared.into_inner().unwrap_or_else(PoisonError::into_inner).2.map_or(Ok(()), Err)
 }
 
 impl Come {
@@ -216,7 +222,7 @@ fn outputs(
 ) -> Result<Vec<PathBuf>, Stop> {
     let mut seen = BTreeSet::new();
     let one = |file: &PathBuf| {
-        let name = file.file_name().map(Path::new).unwrap_or(file);
+        let name = file.file_name().map_or(file.as_path(), Path::new);
         let ending = match (args.format, format(Some(name))) {
             (None, Ok(_)) => None,
             (_, Ok(Format::Csv)) => Some("csv"),

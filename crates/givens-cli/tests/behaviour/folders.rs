@@ -157,7 +157,7 @@ fn a_run_over_files_that_is_killed_is_gone_on_with() {
     let line = "smooth walk.toml parts -o out --resume --threads 1";
     let words: Vec<&str> = line.split_whitespace().collect();
     let mut child = folder.command(&words).spawn().unwrap();
-    let done = || fs::read_dir(folder.path("out")).map_or(0, |files| files.count());
+    let done = || fs::read_dir(folder.path("out")).map_or(0, Iterator::count);
     // two files and the checkpoint
     while done() < 3 && child.try_wait().unwrap().is_none() {
         sleep(Duration::from_millis(2));

@@ -165,7 +165,10 @@ fn arrays(of: &AnswerWriter, lines: &[Line]) -> Result<Vec<ArrayRef>, String> {
     let nis = |line: &Line| line.estimate.map(|(est, k)| est.nis[k]).filter(|nis| !nis.is_nan());
     all.push(Arc::new(lines.iter().map(nis).collect::<Float64Array>()));
     all.push(Arc::new(
-        lines.iter().map(|line| stepped(line).map(|(dof, _)| dof as i64)).collect::<Int64Array>(),
+        lines
+            .iter()
+            .map(|line| stepped(line).map(|(dof, _)| i64::try_from(dof).unwrap_or(i64::MAX)))
+            .collect::<Int64Array>(),
     ));
     all.push(Arc::new(
         lines.iter().map(|line| stepped(line).map(|(_, value)| value)).collect::<Float64Array>(),

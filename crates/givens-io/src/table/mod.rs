@@ -167,10 +167,10 @@ fn read(path: &str, model: &Model, measured: bool) -> Result<Tracks, InputErrors
         return tracks(&mut io::stdin().lock(), name, model, measured);
     }
     let mut file = File::open(path).map_err(|error| whole(name, unreadable(&error)))?;
-    if file.metadata().is_ok_and(|about| about.is_file()) {
-        if parquet::is_parquet(&mut file).map_err(|error| whole(name, unreadable(&error)))? {
-            return parquet::tracks(file, name, model, measured, reading::HELD);
-        }
+    let found = file.metadata().is_ok_and(|about| about.is_file())
+        && parquet::is_parquet(&mut file).map_err(|error| whole(name, unreadable(&error)))?;
+    if found {
+        return parquet::tracks(file, name, model, measured, reading::HELD);
     }
     tracks(&mut file, name, model, measured)
 }

@@ -95,7 +95,7 @@ fn a_step_so_long_that_its_noise_overflows_is_an_error() {
 }
 
 #[test]
-fn a_gap_of_more_than_a_billion_steps_is_refused() {
+fn a_gap_of_more_than_ten_million_steps_is_refused() {
     let mut filter = SrCkf::default().start(&Still, 0.0, unit(2)).unwrap();
     let fault = filter.predict(1e12).unwrap_err().fault;
     assert!(matches!(fault, Fault::Mismatch { why } if why.contains("same unit")), "{fault}");

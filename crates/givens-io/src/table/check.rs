@@ -13,8 +13,8 @@ use crate::model_file::Model;
 
 /// A gap is a whole number of steps if it is so to this part of one.
 const WHOLE: f64 = 1e-6;
-/// More steps between two rows than anyone means.
-const MANY: f64 = 1e9;
+/// More steps between two rows than anyone means, as of a filter.
+const MANY: f64 = 1e7;
 
 /// A track to which rows are added, each checked against those before.
 pub(super) struct Growing {

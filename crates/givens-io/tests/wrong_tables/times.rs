@@ -102,7 +102,7 @@ fn a_gap_of_no_whole_number_of_steps_is_told() {
             ),
             ("time,px\n1,1\n1.54,1\n", (3, 1), "are 1.08 steps of 0.5, not a whole number", ""),
             ("time,px\n1,1\n1.500001,1\n", (3, 1), "are 1 + 2.0e-6 steps of 0.5, not a whole number", ""),
-            ("time,px\n1,1\n1e12,1\n", (3, 1), "steps of 0.5", "same unit"),
+            ("time,px\n1,1\n1e7,1\n", (3, 1), "are 2.000e7 steps of 0.5", "same unit"),
         ],
     );
     let model = changed("[dynamics]", "step = 0.5");

@@ -16,8 +16,8 @@ use crate::ode::Work;
 use crate::rule::{Rule, Shape, Spread, spread_scratch};
 use crate::scalar::{Mask, Real};
 
-/// More steps in a gap than anyone means.
-const MANY: f64 = 1e9;
+/// More steps in a gap than anyone means: they would take minutes.
+const MANY: f64 = 1e7;
 
 /// `transition`: the step of a discrete model, by the rule (docs/algorithms.md P1, P2).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -101,7 +101,7 @@ impl<M: Transition> TimeUpdate<M> for OneTransition {
             return Err(Fault::NotWholeSteps { gap, period });
         }
         if whole > MANY {
-            let why = "a gap holds more than a billion of the model's steps: give both in the same unit";
+            let why = "a gap holds more than ten million of the model's steps: give both in the same unit";
             return Err(Fault::Mismatch { why });
         }
         Ok(Plan { count: whole as usize, dt: period })

@@ -139,14 +139,14 @@ pub struct FilterArgs {
     #[command(flatten)]
     pub model: ModelArgs,
     /// Table of measurements (CSV or Parquet: time, measures; sensor, track_id, u_… if any), `-` for CSV from standard
-    /// input
+    /// input; or a folder of tables, or a pattern in quotation marks
     pub data: String,
     #[command(flatten)]
     pub method: MethodArgs,
     /// True states (CSV: time, states; track_id if any), for RMSE, NEES and coverage
     #[arg(long, value_name = "FILE")]
     pub truth: Option<String>,
-    /// Where to write; standard output without it
+    /// Where to write; standard output without it; for a folder of tables a folder
     #[arg(long, short, value_name = "FILE")]
     pub output: Option<PathBuf>,
     /// The answers at these times in place of the rows: `T,…`, or `every:DT` from the initial belief to the last row

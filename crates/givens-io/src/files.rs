@@ -6,6 +6,9 @@ use crate::error::InputErrors;
 use crate::findings::list;
 use crate::source::{unreadable, whole};
 
+/// What files end in until all of them are written: a folder with one was left by a run that was broken off.
+pub(crate) const UNFINISHED: &str = ".unfinished";
+
 /// The tables that `path` stands for, in the order of their names: those in a folder, by these endings, or all that a pattern such
 /// as `fleet/part-*.parquet` matches. None for the name of a single file, or of what is none, such as `-`.
 ///
@@ -18,6 +21,10 @@ pub fn list_files(path: &str, endings: &[&str]) -> Result<Option<Vec<PathBuf>>, 
         let mut files = Vec::new();
         for entry in entries {
             let file = entry.map_err(|error| whole(path, unreadable(&error)))?.path();
+            if file.to_string_lossy().ends_with(UNFINISHED) {
+                let error = whole(path, "this folder is not whole: `givens partition` was broken off");
+                return Err(error.with_help("remove the folder, and cut the tables again").into());
+            }
             let ending = file.extension().map(|ending| ending.to_string_lossy().to_lowercase());
             if file.is_file() && ending.is_some_and(|ending| endings.contains(&ending.as_str())) {
                 files.push(file);

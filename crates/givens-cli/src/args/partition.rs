@@ -9,7 +9,7 @@ pub struct PartitionArgs {
     /// Tables (CSV or Parquet) with the same columns; folders and patterns of them
     #[arg(required = true)]
     pub data: Vec<String>,
-    /// The column that names the track of each row
+    /// The column that names the track of each row; it is called track_id in the files
     #[arg(long, value_name = "COLUMN")]
     pub by: String,
     /// The folder of the files

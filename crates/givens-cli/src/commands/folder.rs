@@ -33,12 +33,15 @@ struct Come {
     refused: Vec<String>,
 }
 
-/// A file that is done, as a checkpoint keeps it.
+/// Length and time of the last change of a file.
+type State = (u64, u128);
+
+/// A file that is done, and its answers, as a checkpoint keeps it.
 #[derive(Serialize, Deserialize)]
 struct File {
     name: String,
-    /// Length and time of the last change.
-    state: (u64, u128),
+    state: State,
+    answers: State,
     tracks: usize,
     rows: usize,
     log_likelihood: f64,
@@ -51,7 +54,7 @@ pub fn files(data: &str) -> Result<Option<Vec<PathBuf>>, Stop> {
 }
 
 /// A file that is to be run, where its answers go, and its [`state`].
-type Left<'f> = (&'f PathBuf, &'f PathBuf, (u64, u128));
+type Left<'f> = (&'f PathBuf, &'f PathBuf, State);
 
 /// Runs `one` over each file, into the folder of `-o`.
 pub fn run(
@@ -115,11 +118,11 @@ pub fn run(
 fn left<'f>(files: &'f [PathBuf], outputs: &'f [PathBuf], mut before: Vec<File>) -> (Come, Vec<Left<'f>>) {
     let (mut come, mut left) = (Come::default(), Vec::new());
     for (file, output) in files.iter().zip(outputs) {
-        let (name, state) = (file.display().to_string(), state(file));
-        let done = |of: &File| of.name == name && of.state == state && output.is_file();
+        let (name, own, answers) = (file.display().to_string(), state(file), state(output));
+        let done = |of: &File| of.name == name && (of.state, of.answers) == (own, answers);
         match before.iter().position(done) {
             Some(k) => come.add(before.swap_remove(k)),
-            None => left.push((file, output, state)),
+            None => left.push((file, output, own)),
         }
     }
     (come, left)
@@ -139,15 +142,16 @@ fn each(
     let (next, rows) = (AtomicUsize::new(0), AtomicUsize::new(0));
     let shared = Mutex::new((come, kept, None));
     let work = |done: &AtomicUsize| {
-        while let Some((file, output, state)) = left.get(next.fetch_add(1, Ordering::Relaxed)) {
+        while let Some((file, output, own)) = left.get(next.fetch_add(1, Ordering::Relaxed)) {
             let name = file.display().to_string();
-            let (data, output) = (name.clone(), Some((*output).clone()));
-            let came = one(&FilterArgs { data, output, resume: None, threads, ..args.clone() }, &rows);
+            let (data, to) = (name.clone(), Some((*output).clone()));
+            let came = one(&FilterArgs { data, output: to, resume: None, threads, ..args.clone() }, &rows);
             let mut shared = shared.lock().unwrap_or_else(PoisonError::into_inner);
             let (come, kept, stop) = &mut *shared;
             match came {
                 Ok(Done { tracks, rows, log_likelihood, failures }) => {
-                    let file = File { name, state: *state, tracks, rows, log_likelihood, failures };
+                    let (state, answers) = (*own, state(output));
+                    let file = File { name, state, answers, tracks, rows, log_likelihood, failures };
                     if let Some(Err(error)) = kept.as_mut().map(|kept| kept.append(&file)) {
                         *stop = Some(Stop::failed(error.to_string()));
                         next.store(left.len(), Ordering::Relaxed);
@@ -239,9 +243,8 @@ fn outputs(
         Ok(output)
     };
     let all = files.iter().map(one).collect::<Result<Vec<_>, _>>()?;
-    let inside = |output: &PathBuf| {
-        files.iter().any(|file| file.canonicalize().ok() == output.canonicalize().ok() && output.exists())
-    };
+    let data: BTreeSet<PathBuf> = files.iter().filter_map(|file| file.canonicalize().ok()).collect();
+    let inside = |output: &PathBuf| output.canonicalize().is_ok_and(|output| data.contains(&output));
     match all.iter().find(|output| inside(output)) {
         Some(output) => Err(Stop::input(format!("-o {}: that is the file of the data", output.display()))
             .help("name another folder")),
@@ -250,7 +253,7 @@ fn outputs(
 }
 
 /// Length and time of the last change, by which it is told whether a file is as it was.
-fn state(file: &Path) -> (u64, u128) {
+fn state(file: &Path) -> State {
     let about = file.metadata().ok();
     let changed = about.as_ref().and_then(|about| about.modified().ok());
     let since = changed.and_then(|time| time.duration_since(std::time::UNIX_EPOCH).ok());

@@ -64,6 +64,14 @@ fn what_is_wrong_with_a_table_is_told_by_row_and_column() {
     fs::write(folder.path("cut.parquet"), &bytes[..bytes.len() / 2]).unwrap();
     let cut = told("cut.parquet");
     assert!(cut.contains("cut.parquet: this Parquet file cannot be read") && cut.contains("help:"), "{cut}");
+    let floats = told("float_ids.parquet");
+    assert!(
+        floats.contains("float_ids.parquet: `track_id` holds Float64") && floats.contains("whole numbers"),
+        "{floats}"
+    );
+    // a bit of its footer was turned: a chunk begins before the file
+    let damaged = told("damaged.parquet");
+    assert!(damaged.contains("damaged.parquet: this Parquet file cannot be read"), "{damaged}");
     let other = folder.run("filter model.toml dates.parquet");
     assert!(other.stderr.contains("dates.parquet:1:1: the table has no"), "{}", other.stderr);
     assert!(other.stderr.contains("1 | time,track_id,z,note"), "{}", other.stderr);

@@ -1,11 +1,13 @@
 //! Many files: cut by tracks, run one by one, gone on with.
 
 use super::common::Folder;
+use super::common::models::WALK;
 use super::folder;
 use core::fmt::Write;
 use core::time::Duration;
 use std::collections::BTreeMap;
 use std::fs;
+use std::path::Path;
 use std::thread::sleep;
 
 /// Rows of so many tracks, mixed, of different lengths, some without a measure.
@@ -83,6 +85,60 @@ fn tables_of_either_kind_are_cut_together_and_sorted_by_time() {
 }
 
 #[test]
+fn what_is_cut_is_what_it_was() {
+    let folder = folder("lossless");
+    let tables = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/behaviour/tables");
+    fs::copy(tables.join("blanks.parquet"), folder.path("blanks.parquet")).unwrap();
+    folder.write("any.toml", &WALK.replace("time = 0\n", ""));
+    // blanks around a name do not count
+    folder.run("partition blanks.parquet --by track_id --rows 1 -o blanks").good();
+    folder.run("filter any.toml blanks -o blanks-out --format csv").good();
+    let whole = by_track(&[folder.run("filter any.toml blanks.parquet").good().stdout]);
+    assert!(by_track(&texts(&folder, "blanks-out")) == whole && whole.len() == 2, "{whole:?}");
+    // a column of tracks with another name is called track_id
+    folder.write("ships.csv", "time,ship,z\n1,a,1\n2,b,5\n3,a,2\n");
+    folder.run("partition ships.csv --by ship -o ships").good();
+    let run = folder.run("filter any.toml ships -o ships-out --format csv").good();
+    assert!(run.stderr.contains("3 rows of 2 tracks in 1 file"), "{}", run.stderr);
+    let both = folder
+        .write("both.csv", "time,ship,track_id,z\n1,a,b,1\n")
+        .run("partition both.csv --by ship -o both");
+    assert!(
+        both.code == 2 && both.stderr.contains("would be called `track_id`, and there is one"),
+        "{}",
+        both.stderr
+    );
+    // NaN stays wrong, and what is of two kinds, padded or long stays as it is written
+    folder.write(
+        "odd.csv",
+        "time,track_id,z,a,b,c\n1,x,NaN,5,007,9007199254740993\n2,x,2,2026-03-01T12:00:00Z,1,2\n",
+    );
+    folder.run("partition odd.csv --by track_id -o odd").good();
+    let odd = folder.run("filter any.toml odd/part-00000.parquet");
+    assert!(odd.code == 2 && odd.stderr.contains("row 1: `NaN` in `z` is not a number"), "{}", odd.stderr);
+    let file = fs::File::open(folder.path("odd/part-00000.parquet")).unwrap();
+    let rows = parquet::file::reader::SerializedFileReader::new(file).unwrap();
+    let first = rows.into_iter().next().unwrap().unwrap().to_string();
+    assert!(first.ends_with("a: \"5\", b: \"007\", c: \"9007199254740993\"}"), "{first}");
+}
+
+#[test]
+fn a_folder_that_was_not_cut_to_its_end_is_refused() {
+    let folder = folder("unfinished");
+    folder.write("ships.csv", &table(9, 9));
+    folder.run("partition ships.csv --by track_id --rows 20 -o parts").good();
+    fs::rename(folder.path("parts/part-00001.parquet"), folder.path("parts/part-00001.parquet.unfinished"))
+        .unwrap();
+    let found = folder.run("filter walk.toml parts -o out");
+    assert!(
+        found.code == 2 && found.stderr.contains("`givens partition` was broken off"),
+        "{}",
+        found.stderr
+    );
+    assert!(!folder.path("out").exists());
+}
+
+#[test]
 fn what_cannot_be_cut_is_told_by_table_row_and_column() {
     let folder = folder("uncut");
     folder.write("good.csv", "time,track_id,z\n1,a,1\n").write("less.csv", "time,track_id\n1,a\n");
@@ -152,14 +208,14 @@ fn what_is_for_one_table_is_refused_and_nothing_is_written() {
 fn a_run_over_files_that_is_killed_is_gone_on_with() {
     let folder = folder("killed");
     folder.write("ships.csv", &table(60, 3000));
-    folder.run("partition ships.csv --by track_id -o parts --rows 4000").good();
+    folder.run("partition ships.csv --by track_id -o parts --rows 600").good();
     folder.run("smooth walk.toml parts -o unbroken").good();
     let line = "smooth walk.toml parts -o out --resume --threads 1";
     let words: Vec<&str> = line.split_whitespace().collect();
     let mut child = folder.command(&words).spawn().unwrap();
     let done = || fs::read_dir(folder.path("out")).map_or(0, Iterator::count);
-    // two files and the checkpoint
-    while done() < 3 && child.try_wait().unwrap().is_none() {
+    // three files, the checkpoint and what is being written
+    while done() < 5 && child.try_wait().unwrap().is_none() {
         sleep(Duration::from_millis(2));
     }
     child.kill().unwrap();
@@ -168,6 +224,11 @@ fn a_run_over_files_that_is_killed_is_gone_on_with() {
     assert!(plain.code == 2 && plain.stderr.contains("add --resume"), "{}", plain.stderr);
     let other = folder.run("smooth walk.toml parts -o out --resume --method ckf");
     assert!(other.code == 2 && other.stderr.contains("of another"), "{}", other.stderr);
+    // an answer that is not what the run has written is written again
+    let mut files: Vec<_> =
+        fs::read_dir(folder.path("out")).unwrap().map(|file| file.unwrap().path()).collect();
+    files.sort();
+    fs::write(&files[0], "junk").unwrap();
     let last = folder.run(line).good();
     assert!(last.stderr.starts_with("goes on: "), "{}", last.stderr);
     assert!(last.stderr.contains(" of 60 tracks in "), "{}", last.stderr);

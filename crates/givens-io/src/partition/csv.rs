@@ -16,9 +16,29 @@ pub(super) struct Types(Vec<(String, Of)>);
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Of {
     Numbers,
+    /// Times alone: other dates stay as they are written.
     Instants,
     Words,
 }
+
+impl Of {
+    /// What holds this cell without a loss.
+    fn cell(column: &str, cell: &str) -> Self {
+        let number = cell.parse::<f64>().ok().filter(|number| number.is_finite());
+        // 007 is a name, and a whole number of seventeen digits no longer itself as a number
+        let digits = cell.trim_start_matches(['-', '+']);
+        let whole = digits.bytes().all(|byte| byte.is_ascii_digit());
+        let padded = whole && digits.len() > 1 && digits.starts_with('0');
+        match number {
+            Some(number) if !padded && !(whole && number.abs() >= EXACT) => Self::Numbers,
+            None if column == "time" && instant(cell).is_some() => Self::Instants,
+            _ => Self::Words,
+        }
+    }
+}
+
+/// From here on not every whole number is a number of its own.
+const EXACT: f64 = 9_007_199_254_740_992.0;
 
 type Reader = csv::Reader<File>;
 
@@ -28,20 +48,20 @@ impl Types {
         let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(file);
         let header = reader.headers().map_err(|error| broken(name, &error))?.clone();
         let words = |column: &str| column == by || column == "sensor" || column == "track_id";
-        let first = |column: &str| if words(column) { Of::Words } else { Of::Numbers };
-        let mut all: Vec<(String, Of)> =
-            header.iter().map(|column| (column.to_owned(), first(column))).collect();
+        let mut found: Vec<Option<Of>> =
+            header.iter().map(|column| words(column).then_some(Of::Words)).collect();
         let mut record = csv::StringRecord::new();
         while reader.read_record(&mut record).map_err(|error| broken(name, &error))? {
-            for ((_, of), cell) in all.iter_mut().zip(&record).filter(|(_, cell)| !cell.is_empty()) {
-                if *of == Of::Numbers && cell.parse::<f64>().is_err() {
-                    *of = Of::Instants;
-                }
-                if *of == Of::Instants && instant(cell).is_none() {
-                    *of = Of::Words;
+            for ((of, cell), column) in found.iter_mut().zip(&record).zip(&header) {
+                if *of != Some(Of::Words) && !cell.is_empty() {
+                    let own = Of::cell(column, cell);
+                    // what is of two kinds stays as it is written
+                    *of = Some(if of.is_none_or(|of| of == own) { own } else { Of::Words });
                 }
             }
         }
+        let of = |of: Option<Of>| of.unwrap_or(Of::Numbers);
+        let all = header.iter().zip(found).map(|(column, found)| (column.to_owned(), of(found))).collect();
         Ok(Self(all))
     }
 

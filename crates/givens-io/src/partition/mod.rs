@@ -12,17 +12,21 @@ use std::sync::Arc;
 use arrow_array::{RecordBatch, UInt64Array};
 use arrow_ipc::reader::StreamReader;
 use arrow_ipc::writer::StreamWriter;
-use arrow_schema::SchemaRef;
+use arrow_schema::{Field, FieldRef, Schema, SchemaRef};
 use arrow_select::concat::concat_batches;
 use arrow_select::take::take_record_batch;
 
 use crate::decode::{Kind, floats, integers, kind};
 use crate::error::{InputError, InputErrors};
+use crate::files::UNFINISHED;
 use crate::source::whole;
 use rows::{Table, names};
 
 /// Files that are written at once; of more the data is gone over again.
 const TOGETHER: usize = 256;
+
+/// What the column of tracks is called where it is read.
+const TRACK: &str = "track_id";
 
 /// How a table is cut.
 #[derive(Clone, Debug)]
@@ -53,7 +57,8 @@ struct Places {
 }
 
 impl Partition {
-    /// Cuts the tables, CSV or Parquet, which have the same columns, into files `part-00000.parquet` … in a folder. Tracks stand in the
+    /// Cuts the tables, CSV or Parquet, which have the same columns, into files `part-00000.parquet` … in a folder, with the
+    /// column of tracks under the name `track_id`. Until all are written they end in `.unfinished`. Tracks stand in the
     /// order in which they are first named, the rows of each in the order of time; row groups hold whole tracks. The rows of a
     /// file are held in memory at once, and some 100 bytes for each track; all rows lie in a temporary file meanwhile.
     ///
@@ -64,15 +69,16 @@ impl Partition {
         let told = folder.display().to_string();
         let failed = |error: std::io::Error| whole(&told, format!("cannot be written: {error}"));
         crate::make_folder(folder).map_err(|error| whole(&told, error.to_string()))?;
-        if folder.join(name(0)).exists() {
-            let error = whole(&told, format!("there is a {} in this folder already", name(0)));
+        let there = [name(0), unfinished(&name(0))].into_iter().find(|name| folder.join(name).exists());
+        if let Some(there) = there {
+            let error = whole(&told, format!("there is a {there} in this folder already"));
             return Err(error.with_help("name another folder, or remove the files").into());
         }
         let mut opened = Vec::new();
         for path in tables {
             opened.push(Table::open(path, &self.by)?);
         }
-        let schema = alike(&opened)?;
+        let schema = self.called(&opened)?;
         let places = self.places(&opened)?;
         for from in (0..places.files).step_by(TOGETHER) {
             let files = from..(from + TOGETHER).min(places.files);
@@ -85,10 +91,33 @@ impl Partition {
                 let rows = read_back(spool).map_err(failed)?;
                 let rows =
                     concat_batches(&schema, &rows).map_err(|error| failed(std::io::Error::other(error)))?;
-                sorted::write(&folder.join(name(file)), &rows, &self.by, &places.of).map_err(failed)?;
+                let path = folder.join(unfinished(&name(file)));
+                sorted::write(&path, &rows, TRACK, &places.of).map_err(failed)?;
             }
         }
+        for file in 0..places.files {
+            let (from, to) = (folder.join(unfinished(&name(file))), folder.join(name(file)));
+            std::fs::rename(from, to).map_err(failed)?;
+        }
         Ok(Partitioned { files: places.files, tracks: places.of.len(), rows: places.rows })
+    }
+
+    /// The columns that all tables have, with that of tracks under its usual name.
+    fn called(&self, tables: &[Table]) -> Result<SchemaRef, InputErrors> {
+        let schema = alike(tables)?;
+        if self.by == TRACK {
+            return Ok(schema);
+        }
+        if let (Ok(_), Some(table)) = (schema.field_with_name(TRACK), tables.first()) {
+            let message = format!("the column `{}` would be called `{TRACK}`, and there is one", self.by);
+            return Err(whole(&table.name, message).with_help("cut by `track_id`, or rename it").into());
+        }
+        let renamed = |field: &FieldRef| {
+            let is_track = field.name() == &self.by;
+            if is_track { Arc::new(Field::clone(field).with_name(TRACK)) } else { Arc::clone(field) }
+        };
+        let fields: Vec<FieldRef> = schema.fields().iter().map(renamed).collect();
+        Ok(Arc::new(Schema::new_with_metadata(fields, schema.metadata().clone())))
     }
 
     /// Goes over the tables once, for the names and lengths of their tracks.
@@ -190,6 +219,11 @@ fn read_back(mut spool: File) -> std::io::Result<Vec<RecordBatch>> {
         .map_err(other)?
         .map(|batch| batch.map_err(other))
         .collect()
+}
+
+/// The name of a file until all are written: a folder in which there is one is not read.
+fn unfinished(name: &str) -> String {
+    format!("{name}{UNFINISHED}")
 }
 
 fn name(file: usize) -> String {

@@ -13,7 +13,7 @@ use crate::decode::{Kind, integers, kind, texts, unsigned};
 use crate::error::InputError;
 use crate::findings::list;
 use crate::source::{unreadable, whole};
-use crate::table::{is_parquet, unreadable_parquet};
+use crate::table::{is_parquet, names_things, unreadable_parquet, whole_chunks};
 
 /// Rows that are decoded at once.
 const ROWS: usize = 1 << 16;
@@ -41,6 +41,7 @@ impl Table {
         let (schema, of) = if is_parquet(&mut file).map_err(|error| whole(&name, unreadable(&error)))? {
             let builder = ParquetRecordBatchReaderBuilder::try_new(file);
             let builder = builder.map_err(|error| unreadable_parquet(&name, &error))?;
+            whole_chunks(&name, builder.metadata())?;
             (SchemaRef::clone(builder.schema()), Of::Parquet)
         } else {
             let types = csv::Types::of(&name, file, by)?;
@@ -52,9 +53,7 @@ impl Table {
                 let error = whole(&name, format!("the table has no column `{column}`: it has {names}"));
                 return Err(error.with_help("name the column of tracks with --by; that of times is `time`"));
             };
-            if kind(field.data_type()) == Kind::Other
-                || column == by && kind(field.data_type()) == Kind::Number
-            {
+            if kind(field.data_type()) == Kind::Other || column == by && !names_things(field.data_type()) {
                 let error = whole(&name, format!("`{column}` holds {}", field.data_type()));
                 let help = "tracks are named by words or whole numbers, times are numbers or dates";
                 return Err(error.with_help(help));
@@ -88,7 +87,7 @@ pub(super) fn names(batch: &RecordBatch, column: &str) -> Vec<Option<String>> {
     match kind(array.data_type()) {
         Kind::Text => texts(array.as_ref())
             .into_iter()
-            .map(|name| name.filter(|name| !name.trim().is_empty()))
+            .map(|name| name.map(|name| name.trim().to_owned()).filter(|name| !name.is_empty()))
             .collect(),
         Kind::Unsigned => {
             let there = |k: usize| !array.is_null(k);

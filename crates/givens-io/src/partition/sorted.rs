@@ -1,7 +1,8 @@
 //! One file: its tracks one behind the other, each in the order of time, in row groups that hold whole tracks.
 
 use std::collections::HashMap;
-use std::io::{self, Write};
+use std::fs::File;
+use std::io::{self, BufWriter};
 use std::path::Path;
 
 use arrow_array::{RecordBatch, UInt64Array};
@@ -11,7 +12,6 @@ use parquet::basic::{Compression, ZstdLevel};
 use parquet::file::properties::WriterProperties;
 
 use super::rows::names;
-use crate::Destination;
 use crate::decode::{Kind, floats, integers, kind, texts};
 use crate::table::Calendar;
 
@@ -40,9 +40,8 @@ pub(super) fn write(
     let level = ZstdLevel::try_new(1).map_err(io::Error::other)?;
     let properties = WriterProperties::builder().set_compression(Compression::ZSTD(level));
     let properties = properties.set_max_row_group_row_count(None).build();
-    let mut destination = Destination::create(path).map_err(|error| io::Error::other(error.to_string()))?;
-    let mut file =
-        ArrowWriter::try_new(&mut destination as &mut (dyn Write + Send), rows.schema(), Some(properties))?;
+    let destination = BufWriter::new(File::create(path)?);
+    let mut file = ArrowWriter::try_new(destination, rows.schema(), Some(properties))?;
     let mut from = 0;
     while from < order.len() {
         let mut to = (from + GROUP).min(order.len());
@@ -54,8 +53,7 @@ pub(super) fn write(
         file.flush()?;
         from = to;
     }
-    file.close()?;
-    destination.finish().map_err(|error| io::Error::other(error.to_string()))
+    file.into_inner()?.into_inner().map_err(io::IntoInnerError::into_error)?.sync_all()
 }
 
 /// Numbers in the order of the times. Dates count from the first one, so that they are told apart to a nanosecond in a month.

@@ -74,7 +74,6 @@ fn words(array: &dyn Array) -> Values {
         Kind::Unsigned => Values::Words(
             unsigned(array).into_iter().enumerate().map(|(k, id)| whole(k, id.to_string())).collect(),
         ),
-        _ if array.null_count() == array.len() => Values::Words(vec![None; array.len()]),
         _ => Values::Other(array.data_type().to_string()),
     }
 }
@@ -144,7 +143,6 @@ impl Cells for RowOf<'_> {
     fn word(&self, column: usize) -> &str {
         match self.values(column) {
             Values::Words(words) => words[self.row].as_deref().unwrap_or("").trim(),
-            Values::Other(of) => of,
             _ => "",
         }
     }

@@ -17,7 +17,7 @@ mod tests;
 mod time;
 mod truth;
 
-pub(crate) use parquet::{MAGIC, broken as unreadable_parquet, is_parquet};
+pub(crate) use parquet::{MAGIC, broken as unreadable_parquet, is_parquet, names_things, whole_chunks};
 pub use rows::Rows;
 pub use time::Calendar;
 pub use truth::{Truth, parse_truth, read_truth};

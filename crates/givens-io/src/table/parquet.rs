@@ -3,8 +3,10 @@
 use std::fs::File;
 use std::io::{Read, Seek};
 
+use arrow_schema::DataType;
 use parquet::arrow::ProjectionMask;
 use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
+use parquet::file::metadata::{ColumnChunkMetaData, ParquetMetaData};
 
 use super::Tracks;
 use super::columnar::Block;
@@ -39,6 +41,7 @@ pub(super) fn tracks(
     let fingerprint = sum(&mut file).map_err(|error| whole(name, unreadable(&error)))?;
     let wrong = |error: &dyn core::fmt::Display| broken(name, error);
     let builder = ParquetRecordBatchReaderBuilder::try_new(file).map_err(|error| wrong(&error))?;
+    whole_chunks(name, builder.metadata())?;
     let names: Vec<String> = builder.schema().fields().iter().map(|field| field.name().clone()).collect();
     let source = Source::new(name, line(&names));
     let findings = Findings::new(&source);
@@ -46,8 +49,16 @@ pub(super) fn tracks(
         return findings.finish(None);
     };
     let header = sheet.header;
-    let ids = reading.columns().track.map(|column| kind(builder.schema().field(column).data_type()));
-    reading.whole_ids = matches!(ids, Some(Kind::Whole));
+    let of = |column: usize| builder.schema().field(column).data_type();
+    reading.whole_ids = reading.columns().track.is_some_and(|column| kind(of(column)) == Kind::Whole);
+    let named = reading.columns().track.into_iter().chain(reading.columns().sensor);
+    for column in named.filter(|&column| !names_things(of(column))) {
+        let message = format!("`{}` holds {}", header[column], of(column));
+        findings.push(
+            findings.source.whole(message).with_help("name tracks and sensors by words or whole numbers"),
+        );
+        return findings.finish(None);
+    }
     let read: Vec<usize> = (0..names.len()).filter(|&column| reading.columns().reads(column)).collect();
     let mask = ProjectionMask::roots(builder.parquet_schema(), read.iter().copied());
     let reader =
@@ -77,6 +88,26 @@ fn line(names: &[String]) -> String {
 pub(crate) fn broken(name: &str, error: &dyn core::fmt::Display) -> InputError {
     let help = "write it anew, or as CSV; compressed with zstd, snappy or not at all";
     whole(name, format!("this Parquet file cannot be read: {error}")).with_help(help)
+}
+
+/// Whether a column of this type can name tracks and sensors.
+pub(crate) fn names_things(of: &DataType) -> bool {
+    matches!(kind(of), Kind::Text | Kind::Whole | Kind::Unsigned)
+}
+
+/// Makes sure that no chunk of a column is said to begin before the file or to have a negative length.
+pub(crate) fn whole_chunks(name: &str, about: &ParquetMetaData) -> Result<(), InputError> {
+    let chunks = about.row_groups().iter().flat_map(|group| group.columns());
+    let wrong = |chunk: &&ColumnChunkMetaData| {
+        let offsets = [Some(chunk.data_page_offset()), chunk.dictionary_page_offset()];
+        chunk.compressed_size() < 0
+            || chunk.num_values() < 0
+            || offsets.into_iter().flatten().any(|at| at < 0)
+    };
+    match chunks.filter(wrong).next() {
+        Some(chunk) => Err(broken(name, &format!("the place of {} is damaged", chunk.column_path()))),
+        None => Ok(()),
+    }
 }
 
 /// Tells the file from others.

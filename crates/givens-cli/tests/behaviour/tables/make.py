@@ -33,5 +33,9 @@ wrong = pa.table(
     }
 )
 pq.write_table(wrong, "wrong.parquet", compression="none")
+floats = pa.table({"time": [0.0, 0.0], "track_id": pa.array([1.0, 2.0]), "z": [1.0, 2.0]})
+pq.write_table(floats, "float_ids.parquet", compression="none")
+blanks = pa.table({"time": [0.0, 0.0, 1.0, 1.0], "track_id": ["a", "b", "a ", " b"], "z": [1.0, 2.0, 3.0, 4.0]})
+pq.write_table(blanks, "blanks.parquet", compression="none")
 words = pa.table({"time": pa.array([0.0, None]), "z": pa.array([["x"], ["y"]])})
 pq.write_table(words, "lists.parquet")

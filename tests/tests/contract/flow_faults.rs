@@ -1,7 +1,8 @@
 //! What is wrong with a continuous model is told with the quantity and its component, by every method.
 
 use givens::filter::{Fault, Gaussian, Quantity};
-use givens::model::{At, Noise, Observation, Sde, Varies};
+use givens::model::zoo::Components;
+use givens::model::{At, Sde, Varies};
 use givens::scalar::Real;
 use givens_tests::choices::continuous_choices;
 
@@ -50,25 +51,7 @@ impl Sde for Model {
     }
 }
 
-struct Sensor;
-
-impl Observation for Sensor {
-    fn states(&self) -> usize {
-        3
-    }
-    fn measures(&self) -> usize {
-        1
-    }
-    fn observe<T: Real>(&self, _: &At<T>, x: &[T], out: &mut [T]) {
-        out[0] = x[0];
-    }
-    fn noise(&self) -> Noise {
-        Noise::Covariance
-    }
-    fn measurement_noise<T: Real>(&self, _: &At<T>, out: &mut [T]) {
-        out[0] = T::one();
-    }
-}
+const SENSOR: Components<1> = Components { states: 3, which: [0], std: [1.0] };
 
 #[test]
 fn a_wrong_flow_is_told_by_quantity_and_component() {
@@ -76,7 +59,7 @@ fn a_wrong_flow_is_told_by_quantity_and_component() {
     for (name, choice) in continuous_choices(3) {
         let fault = |wrong| -> Option<Fault> {
             let model = Model(wrong);
-            let mut f = match choice.start_continuous(&model, &Sensor, 0.0, &prior) {
+            let mut f = match choice.start_continuous(&model, &SENSOR, 0.0, &prior) {
                 Ok(f) => f,
                 Err(error) => return Some(error.fault),
             };

@@ -2,7 +2,8 @@
 //! exact for quadratics follows them.
 
 use givens::filter::{Fault, Gaussian};
-use givens::model::{At, Noise, Observation, Sde, Varies};
+use givens::model::zoo::Components;
+use givens::model::{At, Sde, Varies};
 use givens::ode::Tolerance;
 use givens::registry::{RuleName, TimeName};
 use givens::scalar::Real;
@@ -35,25 +36,7 @@ impl Sde for Multiplicative {
     }
 }
 
-struct Sensor;
-
-impl Observation for Sensor {
-    fn states(&self) -> usize {
-        2
-    }
-    fn measures(&self) -> usize {
-        1
-    }
-    fn observe<T: Real>(&self, _: &At<T>, x: &[T], out: &mut [T]) {
-        out[0] = x[0];
-    }
-    fn noise(&self) -> Noise {
-        Noise::Covariance
-    }
-    fn measurement_noise<T: Real>(&self, _: &At<T>, out: &mut [T]) {
-        out[0] = T::one();
-    }
-}
+const SENSOR: Components<1> = Components { states: 2, which: [0], std: [1.0] };
 
 /// Mean and covariance after time t: e' = k e + f exp(g t) for each of the second moments.
 fn moments(mean: [f64; 2], var: [f64; 2], t: f64) -> ([f64; 2], [f64; 3]) {
@@ -75,7 +58,7 @@ fn a_diffusion_linear_in_the_state_has_the_moments_of_its_closed_form() {
     let mut followed = 0;
     for (name, mut choice) in continuous_choices(2) {
         choice.integrator.tolerance = Tolerance { rtol: 1e-11, atol: 0.0 };
-        let mut f = match choice.start_continuous(&Multiplicative, &Sensor, 0.0, &prior) {
+        let mut f = match choice.start_continuous(&Multiplicative, &SENSOR, 0.0, &prior) {
             Ok(f) => f,
             Err(error) => {
                 assert_eq!(error.fault, Fault::StateDependentDiffusion, "{name}");

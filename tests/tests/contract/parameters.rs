@@ -1,7 +1,8 @@
 //! A model's own parameters are those that every method moves it by, and those that are set afterwards too.
 
 use givens::filter::{CdCkf1, CdEkf, Filter, Gaussian, Lskf, Over, SrCdCkf, SrCdCkf2};
-use givens::model::{At, Noise, Observation, Sde, Transition, Varies};
+use givens::model::zoo::Components;
+use givens::model::{At, Noise, Sde, Transition, Varies};
 use givens::registry::AnyFilter;
 use givens::scalar::Real;
 use givens_tests::choices::{choices, continuous_choices};
@@ -67,25 +68,7 @@ impl Sde for Half {
     }
 }
 
-struct Sensor;
-
-impl Observation for Sensor {
-    fn states(&self) -> usize {
-        2
-    }
-    fn measures(&self) -> usize {
-        1
-    }
-    fn observe<T: Real>(&self, _: &At<T>, x: &[T], out: &mut [T]) {
-        out[0] = x[1];
-    }
-    fn noise(&self) -> Noise {
-        Noise::Covariance
-    }
-    fn measurement_noise<T: Real>(&self, _: &At<T>, out: &mut [T]) {
-        out[0] = T::of(0.3);
-    }
-}
+const SENSOR: Components<1> = Components { states: 2, which: [1], std: [0.5] };
 
 /// The beliefs of two predictions and an update, and of one more prediction with the parameter set to 0.25.
 fn steps(mut f: AnyFilter<'_>, set: bool) -> Vec<f64> {
@@ -108,7 +91,7 @@ fn steps(mut f: AnyFilter<'_>, set: bool) -> Vec<f64> {
 fn a_parameter_is_the_number_that_it_stands_for() {
     let prior = Gaussian::from_std(&[2.0, 1.0], &[0.5, 0.7]).unwrap();
     for (name, choice) in choices(2) {
-        let of = |model: &Half, set| steps(choice.start(model, &Sensor, 0.0, &prior).unwrap(), set);
+        let of = |model: &Half, set| steps(choice.start(model, &SENSOR, 0.0, &prior).unwrap(), set);
         let (own, written) = (of(&Half::Parameter, true), of(&Half::Written, false));
         assert_eq!(own[..written.len()], written, "{name}");
         let [.., before, _, _, _, _, _, after, _] = own[..] else { panic!("{name}: {own:?}") };
@@ -116,7 +99,7 @@ fn a_parameter_is_the_number_that_it_stands_for() {
     }
     for (name, choice) in continuous_choices(2) {
         let of =
-            |model: &Half, set| steps(choice.start_continuous(model, &Sensor, 0.0, &prior).unwrap(), set);
+            |model: &Half, set| steps(choice.start_continuous(model, &SENSOR, 0.0, &prior).unwrap(), set);
         let (own, written) = (of(&Half::Parameter, true), of(&Half::Written, false));
         assert_eq!(own[..written.len()], written, "{name}");
         let [.., before, _, _, _, _, _, after, _] = own[..] else { panic!("{name}: {own:?}") };

@@ -2,14 +2,15 @@
 
 use givens::filter::Gaussian;
 use givens::filter::predict::Variant;
-use givens::model::{At, Noise, Observation, Sde, Varies};
+use givens::model::zoo::Components;
+use givens::model::{At, Sde, Varies};
 use givens::ode::Tolerance;
 use givens::registry::TimeName;
 use givens::scalar::Real;
 use givens::{Goal, Row};
 use givens_tests::choices::continuous_choices;
 
-/// dx = cos t dt + (0.2 + a t + b t²) dβ, measured with variance 0.3.
+/// dx = cos t dt + (0.2 + a t + b t²) dβ.
 struct Varying {
     a: f64,
     b: f64,
@@ -33,22 +34,9 @@ impl Sde for Varying {
     }
 }
 
-impl Observation for Varying {
-    fn states(&self) -> usize {
-        1
-    }
-    fn measures(&self) -> usize {
-        1
-    }
-    fn observe<T: Real>(&self, _: &At<T>, x: &[T], out: &mut [T]) {
-        out[0] = x[0];
-    }
-    fn noise(&self) -> Noise {
-        Noise::Covariance
-    }
-    fn measurement_noise<T: Real>(&self, _: &At<T>, out: &mut [T]) {
-        out[0] = T::of(0.3);
-    }
+/// With variance 0.3.
+fn sensor() -> Components<1> {
+    Components { states: 1, which: [0], std: [0.3_f64.sqrt()] }
 }
 
 /// ∫ (0.2 + t²)² dt from zero.
@@ -85,7 +73,7 @@ fn what_depends_on_the_time_is_integrated_over_it() {
         choice.integrator.tolerance = Tolerance { rtol: 1e-10, atol: 0.0 };
         let data = rows.each_ref().map(|(time, z)| Row { time: *time, z: core::slice::from_ref(z), u: &[] });
         let outcome =
-            choice.run_continuous(&model, &model, data.into_iter(), 0.0, &prior, Goal::Interval, &[]);
+            choice.run_continuous(&model, &sensor(), data.into_iter(), 0.0, &prior, Goal::Interval, &[]);
         let found = outcome.into_result().unwrap();
         followed += 1;
         for (k, (m, p)) in [first, filtered[1]].into_iter().enumerate() {
@@ -106,7 +94,7 @@ fn an_ito_taylor_step_follows_a_diffusion_that_is_linear_in_time() {
         if choice.time_update != TimeName::ItoTaylor || choice.variant != Variant::Full {
             continue;
         }
-        let mut f = choice.start_continuous(&model, &model, 0.3, &prior).unwrap();
+        let mut f = choice.start_continuous(&model, &sensor(), 0.3, &prior).unwrap();
         f.predict(1.1).unwrap();
         let expected = 0.25 + spread(1.1) - spread(0.3);
         assert!((f.cov()[0] - expected).abs() < 1e-14, "{name}: {:?} for {expected}", f.cov());

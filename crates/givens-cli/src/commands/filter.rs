@@ -75,6 +75,11 @@ fn one(args: &FilterArgs, task: &str, goals: Goals, counted: Option<&AtomicUsize
         &outputs,
     )?;
     let plan = Plan::new(args)?;
+    if layout == Layout::Covariances && plan.model.states.iter().any(|name| name == "cov") {
+        let stop =
+            Stop::input("--layout covariances: the state `cov` and the covariances would be one column");
+        return Err(stop.help("name the state otherwise in the model, or write JSON lines"));
+    }
     let goals = goals(&plan)?;
     let at = args.at.as_deref().map(|text| Instants::read(text, &plan)).transpose()?;
     let canvases = args.plots.iter().map(|path| Ok((path, Sink::open(Some(path))?)));

@@ -151,6 +151,11 @@ fn a_layout_is_for_parquet_and_a_parquet_file_is_not_gone_on_with() {
     let folder = with_tables("refused");
     let layout = folder.run("filter walk.toml whole.csv -o out.csv --layout tidy");
     assert!(layout.code == 2 && layout.stderr.contains("--layout is for Parquet"), "{}", layout.stderr);
+    folder.write("cov.toml", &WALK.replace("\"x\"", "\"cov\""));
+    folder.write("cov.csv", "time,z\n1,2\n");
+    let cov = folder.run("filter cov.toml cov.csv -o cov.parquet --layout covariances");
+    assert!(cov.code == 2 && cov.stderr.contains("the state `cov` and the covariances"), "{}", cov.stderr);
+    folder.run("filter cov.toml cov.csv -o cov.parquet").good();
     let resume = folder.run("filter walk.toml whole.csv -o out.parquet --resume");
     assert!(resume.code == 2 && resume.stderr.contains("cannot be gone on with"), "{}", resume.stderr);
     let standard = folder.run("filter walk.toml whole.csv --format parquet -o out").good();

@@ -1,7 +1,7 @@
 //! The rows of one table, whatever its kind.
 
 use std::fs::File;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use arrow_array::RecordBatch;
 use arrow_schema::SchemaRef;
@@ -21,6 +21,7 @@ const ROWS: usize = 1 << 16;
 /// A table, of which the columns are known.
 pub(super) struct Table {
     pub name: String,
+    path: PathBuf,
     pub schema: SchemaRef,
     kind: Of,
 }
@@ -59,12 +60,12 @@ impl Table {
                 return Err(error.with_help(help));
             }
         }
-        Ok(Self { name, schema, kind: of })
+        Ok(Self { name, path: path.to_owned(), schema, kind: of })
     }
 
     /// Its rows, of these columns or of all.
     pub fn batches(&self, columns: Option<&[&str]>) -> Result<Batches<'_>, InputError> {
-        let file = File::open(&self.name).map_err(|error| whole(&self.name, unreadable(&error)))?;
+        let file = File::open(&self.path).map_err(|error| whole(&self.name, unreadable(&error)))?;
         let Of::Csv(types) = &self.kind else {
             let wrong = |error: parquet::errors::ParquetError| unreadable_parquet(&self.name, &error);
             let builder = ParquetRecordBatchReaderBuilder::try_new(file).map_err(wrong)?;

@@ -1,4 +1,7 @@
-"""Writes the tables of this folder, as pyarrow 26.0.1 does: `python make.py`."""
+"""Writes the tables of this folder, as pyarrow 26.0.1 does: `python make.py`.
+
+`damaged.parquet` is one of pyarrow's too, of which bits were turned at random until its footer told an impossible place.
+"""
 
 import datetime as dt
 

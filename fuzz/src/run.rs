@@ -19,8 +19,9 @@ pub(crate) fn body(data: &[u8]) {
     let Some(choice) = method::method(bytes, kind, world.states) else { return };
     let Some(prior) = world.prior(bytes) else { return };
     let data = world.data(bytes);
-    let goal = goal(bytes, &data);
+    let goal = goal(bytes, &world, &data);
     let mut at = if way & 4 == 0 { Vec::new() } else { bytes.plains(3) };
+    at.retain(|&time| world.near(time));
     at.sort_by(f64::total_cmp);
     let case = Case { world: &world, choice, prior: &prior, data: &data, goal, at: &at };
     let outcome = case.run();
@@ -33,14 +34,14 @@ pub(crate) fn body(data: &[u8]) {
     }
 }
 
-fn goal(bytes: &mut Bytes, data: &Data) -> Goal {
+fn goal(bytes: &mut Bytes, world: &World, data: &Data) -> Goal {
     match bytes.below(6) {
         0 | 1 => Goal::Filter,
         2 | 3 => Goal::Interval,
         4 => Goal::Lag(if bytes.below(8) == 7 { bytes.length() } else { bytes.below(5) }),
         _ => match data.row(bytes.below(6)) {
             Some(row) => Goal::Point(row.time),
-            None => Goal::Point(bytes.plain()),
+            None => Some(bytes.plain()).filter(|&time| world.near(time)).map_or(Goal::Interval, Goal::Point),
         },
     }
 }

@@ -134,6 +134,11 @@ impl World {
         }
     }
 
+    /// Whether `time` is reached soon: a model of a fixed step takes all the steps that lie between.
+    pub fn near(&self, time: f64) -> bool {
+        self.period.is_none_or(|period| (time / period).abs() <= 200.0)
+    }
+
     /// Up to six rows; those that are refused are left out.
     pub fn data(&self, bytes: &mut Bytes) -> Data {
         // now and then of other lengths than the model's
@@ -152,8 +157,7 @@ impl World {
                 (None, gap) if gap < 200 => f64::from(gap) / 40.0,
                 _ => bytes.number(),
             };
-            // a model of a fixed step takes all the steps that a gap has
-            if self.period.is_some_and(|period| (time / period).abs() > 200.0) {
+            if !self.near(time) {
                 break;
             }
             let z: Vec<f64> =

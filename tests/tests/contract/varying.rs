@@ -94,7 +94,8 @@ fn an_ito_taylor_step_follows_a_diffusion_that_is_linear_in_time() {
         if choice.time_update != TimeName::ItoTaylor || choice.variant != Variant::Full {
             continue;
         }
-        let mut f = choice.start_continuous(&model, &sensor(), 0.3, &prior).unwrap();
+        let sensor = sensor();
+        let mut f = choice.start_continuous(&model, &sensor, 0.3, &prior).unwrap();
         f.predict(1.1).unwrap();
         let expected = 0.25 + spread(1.1) - spread(0.3);
         assert!((f.cov()[0] - expected).abs() < 1e-14, "{name}: {:?} for {expected}", f.cov());

@@ -28,9 +28,9 @@ impl Of {
         // 007 is a name, and a whole number of seventeen digits no longer itself as a number
         let digits = cell.trim_start_matches(['-', '+']);
         let whole = digits.bytes().all(|byte| byte.is_ascii_digit());
-        let padded = whole && digits.len() > 1 && digits.starts_with('0');
+        let padded = digits.len() > 1 && digits.starts_with('0');
         match number {
-            Some(number) if !padded && !(whole && number.abs() >= EXACT) => Self::Numbers,
+            Some(number) if !whole || !padded && number.abs() < EXACT => Self::Numbers,
             None if column == "time" && instant(cell).is_some() => Self::Instants,
             _ => Self::Words,
         }

@@ -6,7 +6,7 @@ use std::io::{Read, Seek};
 use arrow_schema::DataType;
 use parquet::arrow::ProjectionMask;
 use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
-use parquet::file::metadata::{ColumnChunkMetaData, ParquetMetaData};
+use parquet::file::metadata::{ColumnChunkMetaData, ParquetMetaData, RowGroupMetaData};
 
 use super::Tracks;
 use super::columnar::Block;
@@ -51,8 +51,8 @@ pub(super) fn tracks(
     let header = sheet.header;
     let of = |column: usize| builder.schema().field(column).data_type();
     reading.whole_ids = reading.columns().track.is_some_and(|column| kind(of(column)) == Kind::Whole);
-    let named = reading.columns().track.into_iter().chain(reading.columns().sensor);
-    for column in named.filter(|&column| !names_things(of(column))) {
+    let mut named = reading.columns().track.into_iter().chain(reading.columns().sensor);
+    if let Some(column) = named.find(|&column| !names_things(of(column))) {
         let message = format!("`{}` holds {}", header[column], of(column));
         findings.push(
             findings.source.whole(message).with_help("name tracks and sensors by words or whole numbers"),
@@ -97,14 +97,14 @@ pub(crate) fn names_things(of: &DataType) -> bool {
 
 /// Makes sure that no chunk of a column is said to begin before the file or to have a negative length.
 pub(crate) fn whole_chunks(name: &str, about: &ParquetMetaData) -> Result<(), InputError> {
-    let chunks = about.row_groups().iter().flat_map(|group| group.columns());
+    let mut chunks = about.row_groups().iter().flat_map(RowGroupMetaData::columns);
     let wrong = |chunk: &&ColumnChunkMetaData| {
         let offsets = [Some(chunk.data_page_offset()), chunk.dictionary_page_offset()];
         chunk.compressed_size() < 0
             || chunk.num_values() < 0
             || offsets.into_iter().flatten().any(|at| at < 0)
     };
-    match chunks.filter(wrong).next() {
+    match chunks.find(wrong) {
         Some(chunk) => Err(broken(name, &format!("the place of {} is damaged", chunk.column_path()))),
         None => Ok(()),
     }

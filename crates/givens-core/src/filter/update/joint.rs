@@ -44,14 +44,16 @@ pub(super) fn joint<T: Real>(
     let sick = if plain.all() { T::Mask::splat(false) } else { tria(noise, d, rest, wide).sick & !plain };
     block.fill(T::zero());
     for i in 0..d {
-        let own = sensed.dev[i * stride + n + sensed.bends..].get(i).map_or(T::zero(), |own| own.abs());
-        if plain.all() {
-            block[i * size + i] = own;
-        } else {
-            for j in 0..=i {
-                let alone = if j == i { own } else { T::zero() };
-                block[i * size + j] = T::select(plain, alone, noise[i * wide + j]);
+        let row = &mut block[i * size..][..d];
+        if !plain.all() {
+            row.copy_from_slice(&noise[i * wide..][..d]);
+        }
+        if plain.any() {
+            for x in row.iter_mut() {
+                *x = T::select(plain, T::zero(), *x);
             }
+            let own = sensed.dev[i * stride + n + sensed.bends + i].abs();
+            row[i] = T::select(plain, own, row[i]);
         }
         block[i * size + d..][..n].copy_from_slice(&sensed.dev[i * stride..][..n]);
     }

@@ -20,8 +20,10 @@ from givens.consistency import Consistency
 from givens.errors import GivensError, InputError, MethodError, ModelError, StepError, TraceError
 from givens.estimates import Estimates
 from givens.gaussian import Gaussian
+from givens.job import BatchJob, FailedTrack, FileJob, Summary, split_errors
 from givens.merging import merge
 from givens.model_file import ModelFile, parse_model, read_model
+from givens.monte_carlo import Study, study
 from givens.online import Filter
 from givens.registry import Method, methods
 from givens.running import filter, smooth
@@ -32,10 +34,13 @@ from givens.transition import Transition
 
 __all__ = [
     "Batch",
+    "BatchJob",
     "Compared",
     "Comparison",
     "Consistency",
     "Estimates",
+    "FailedTrack",
+    "FileJob",
     "Filter",
     "Gaussian",
     "GivensError",
@@ -48,6 +53,8 @@ __all__ = [
     "Sensor",
     "Simulated",
     "StepError",
+    "Study",
+    "Summary",
     "TraceError",
     "Transition",
     "compare",
@@ -58,6 +65,8 @@ __all__ = [
     "read_model",
     "simulate",
     "smooth",
+    "split_errors",
+    "study",
 ]
 
 __version__: str = _native.VERSION

@@ -7,7 +7,7 @@ from typing import Any
 
 __all__ = ["wanted"]
 
-_EXTRAS = {"pandas": "pandas", "polars": "polars", "xarray": "xarray", "matplotlib": "plot"}
+_EXTRAS = {"pandas": "pandas", "polars": "polars", "xarray": "xarray", "matplotlib": "plot", "pyarrow": "arrow"}
 
 
 def wanted(module: str) -> Any:

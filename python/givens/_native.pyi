@@ -20,6 +20,7 @@ __all__ = [
     "Function",
     "Graph",
     "Model",
+    "TrackTable",
     "accuracy",
     "arrow_stream",
     "consistency",
@@ -38,6 +39,8 @@ _Array = NDArray[np.float64]
 _Kind = Literal["discrete", "continuous"]
 _Column = Literal["number", "whole", "date", "zoned", "duration", "text", "other"]
 _Goal = Literal["filter", "interval", "lag", "point"]
+# states, columns of controls, sensors with their measures, when the prior holds, the length of a step, the model's sum
+_Names = tuple[list[str], list[str], list[tuple[str, list[str]]], float | None, float | None, str]
 
 class _SensorParts(TypedDict):
     name: str
@@ -107,6 +110,13 @@ class _Track(TypedDict):
     row: int
     started: bool
 
+class _Answered(TypedDict):
+    tracks: int
+    rows: int
+    log_likelihood: float
+    seconds: float
+    failed: list[tuple[str | None, str | None, str]]
+
 class _Tracks(TypedDict):
     tracks: list[_Track]
     ignored: list[str]
@@ -132,6 +142,42 @@ class ArrowTable:
         number: float64, NaN where there is null; without a copy, and read-only, if the column is one array of float64
         without nulls. whole: int64 or uint64. date, zoned (in UTC), duration: int64, −2⁶³ where there is null. text: a
         list of str and None. other: the name of a type that is not read.
+        """
+
+@final
+class TrackTable:
+    """A table of tracks that was read for a model. A track with a wrong row is left out, and named where answers are."""
+
+    @staticmethod
+    def lent(model: Model, capsule: object, names: _Names | None = None) -> TrackTable:
+        """Reads to its end what the ``__arrow_c_stream__`` of a table gives; without names, for a model from a file."""
+
+    @staticmethod
+    def read(model: Model, path: str, names: _Names | None = None) -> TrackTable:
+        """Reads a CSV or a Parquet file."""
+
+    def __len__(self) -> int:
+        """Tracks."""
+
+    def track(self, index: int) -> tuple[_Array, _Array]:
+        """Times (rows,) and measurements (rows, d) of a track."""
+
+    def answers(
+        self,
+        model: Model,
+        choice: Choice,
+        goal: _Goal,
+        goal_value: float | None,
+        layout: str,
+        prior: tuple[_Array, _Array] | None = None,
+        unbegun: list[tuple[int, str]] | None = None,
+        threads: int | None = None,
+        path: str | None = None,
+    ) -> tuple[object, _Answered]:
+        """Runs all tracks: a capsule ``arrow_array_stream`` of the answers, or None where they were written to `path`.
+
+        `prior`: a mean (n,) and a covariance (n, n), or one of each for each track; without it, where the model's file
+        says. `unbegun`: tracks that have none, and why.
         """
 
 @final
@@ -572,6 +618,7 @@ def simulate(
     track: int = 0,
     substeps: int = 16,
     threads: int | None = None,
+    first_run: int = 0,
 ) -> tuple[_Array, _Array]:
     """Draws states (runs, K, n) and measurements (runs, K, d) at these times; where `z` is NaN, so are the latter.
 

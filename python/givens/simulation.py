@@ -59,6 +59,7 @@ def simulate(
     params: Mapping[str, Any] | None = None,
     substeps: int = 16,
     threads: int | None = None,
+    first_run: int = 0,
 ) -> Simulated:
     """Draws true states and measurements at the times `t`.
 
@@ -76,6 +77,9 @@ def simulate(
         Equal steps in each gap of a continuous model, by Itô and Taylor. They must be short against the fastest
         motion of the drift: too few draw from another model, without a word, or end in a `StepError`. Where gaps are
         long, double them until nothing changes.
+
+    first_run : int, optional
+        The number of the first of them: a run is the same whatever others are drawn with it.
 
     Returns
     -------
@@ -125,5 +129,6 @@ def simulate(
         u=controls,
         substeps=whole("substeps", substeps, 1),
         threads=threads_of(threads),
+        first_run=whole("first_run", first_run, 0, MOST_RUNS - count),
     )
     return Simulated(times.given, *((x[0], drawn[0]) if runs is None else (x, drawn)))

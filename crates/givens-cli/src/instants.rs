@@ -52,7 +52,9 @@ impl Instants {
         });
         let tracks = tracks.collect();
         Tracks {
+            scheme: plan.tracks.scheme.clone(),
             tracks,
+            refused: Vec::new(),
             ignored: Vec::new(),
             has_track_id: plan.tracks.has_track_id,
             whole_ids: plan.tracks.whole_ids,

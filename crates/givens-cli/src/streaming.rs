@@ -74,8 +74,8 @@ impl<'p> Streaming<'p> {
             thinned = Some((Thinned::new(rows.len() - begin.row, measured), Estimates::default()));
         }
         let (smoothed, threads) = (goal != Goal::Filter, manner.threads);
-        let (model, tracks, gated) = (&plan.model, &plan.tracks, plan.choice.gate.is_some());
-        let writer = AnswerWriter { format, layout, model, tracks, smoothed, gated, threads };
+        let (tracks, gated) = (&plan.tracks, plan.choice.gate.is_some());
+        let writer = AnswerWriter { format, layout, tracks, smoothed, gated, threads };
         let come = Come { thinned, sums: Sums::new(plan, manner.judged), ..Come::default() };
         Ok(Self { plan, goal, manner, at: manner.at, writer, come, failure: None, stop: None })
     }

@@ -37,7 +37,9 @@ pub fn regular(model: &Model, args: &SimulateArgs) -> Result<Tracks, Stop> {
         }
     }
     Ok(Tracks {
+        scheme: model.scheme(),
         tracks: vec![track],
+        refused: vec![],
         ignored: vec![],
         has_track_id: false,
         whole_ids: false,

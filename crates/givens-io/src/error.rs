@@ -68,6 +68,13 @@ impl InputError {
         self
     }
 
+    /// What is wrong, where and the remedy, in a line without the file's name.
+    pub(crate) fn brief(self) -> String {
+        let at = self.place.map_or(String::new(), |place| format!("line {}: ", place.line));
+        let help = self.help.map_or(String::new(), |help| format!("; {help}"));
+        format!("{at}{}{help}", self.message)
+    }
+
     /// Line and column, from one; zeros where no place is known.
     #[must_use]
     pub fn position(&self) -> (usize, usize) {

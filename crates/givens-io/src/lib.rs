@@ -13,6 +13,7 @@ mod model_file;
 mod output;
 mod page;
 mod partition;
+mod scheme;
 mod source;
 mod table;
 
@@ -23,11 +24,13 @@ pub use model_file::{
     BeginError, Beginning, Dynamics, FilterSettings, Model, Prior, Sensor, Setting, SettingValue, Start,
 };
 pub use output::{
-    Answer, AnswerWriter, Answers, Destination, DestinationError, Drawn, Format, Layout, Part, Written,
-    make_folder, read_back, write_measurements, write_states,
+    Answer, AnswerWriter, Answers, Destination, DestinationError, Drawn, FailedTrack, Format, Layout,
+    LentAnswers, Part, Written, make_folder, read_back, write_measurements, write_states,
 };
 pub use page::{Page, Tone};
 pub use partition::{Partition, Partitioned};
+pub use scheme::Scheme;
 pub use table::{
-    Calendar, Row, Rows, Track, Tracks, Truth, parse_tracks, parse_truth, read_times, read_tracks, read_truth,
+    Calendar, Refused, Row, Rows, Track, Tracks, Truth, lent_tracks, parse_tracks, parse_truth, read_times,
+    read_tracks, read_tracks_apart, read_truth,
 };

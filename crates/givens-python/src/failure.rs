@@ -19,7 +19,7 @@ pub struct At<'a> {
     pub mean: &'a [f64],
 }
 
-fn told<'a>(model: &'a Model, choice: Option<&Choice>, fault: &Fault) -> Told {
+pub fn told<'a>(model: &'a Model, choice: Option<&Choice>, fault: &Fault) -> Told {
     let names = |of: &'a [String]| -> Vec<&str> { of.iter().map(String::as_str).collect() };
     let (states, measures) = (names(&model.known.states), names(&model.known.measures));
     let explain = Explain { face: Face::Python, kind: model.kind(), states: &states, measures: &measures };
@@ -27,7 +27,7 @@ fn told<'a>(model: &'a Model, choice: Option<&Choice>, fault: &Fault) -> Told {
 }
 
 /// The kind of a fault, in a word.
-fn word(fault: &Fault) -> &'static str {
+pub fn word(fault: &Fault) -> &'static str {
     match fault {
         Fault::NotPositive { .. } => "not-positive",
         Fault::SingularInnovation { .. } => "singular-innovation",

@@ -9,6 +9,7 @@ mod errors;
 mod estimates;
 mod failure;
 mod filter;
+mod fleet;
 mod graph;
 mod listed;
 mod memory;
@@ -39,6 +40,8 @@ mod _native {
     use crate::estimates::Estimates;
     #[pymodule_export]
     use crate::filter::Filter;
+    #[pymodule_export]
+    use crate::fleet::TrackTable;
     #[pymodule_export]
     use crate::graph::Graph;
     #[pymodule_export]

@@ -59,7 +59,7 @@ impl Job {
     }
 
     /// Runs on this thread.
-    fn run(&self) -> Outcome {
+    pub fn run(&self) -> Outcome {
         let Self { model, choice, prior, data, goal, at } = self;
         let (rows, t0, at) = (Watched(data.rows()), data.start(), at.as_deref().unwrap_or_default());
         let sensing = &model.sensing;
@@ -142,7 +142,8 @@ pub fn run_batch<'py>(
     drop(tracks);
     let rows = jobs.iter().map(|job| job.data.len()).sum();
     room_for_rows(py, rows, jobs.iter().fold(0, |sum: usize, job| sum.saturating_add(job.bytes())))?;
-    if jobs.len() > 1 && alike(&jobs) {
+    // also of a single track: it is the same in any batch
+    if alike(&jobs) {
         let outcomes = packs::run(py, &jobs, self::threads(threads)?)?;
         let all = jobs.iter().zip(outcomes).map(|(job, outcome)| job.estimates(py, outcome));
         return Ok(all.collect::<PyResult<Vec<_>>>()?);

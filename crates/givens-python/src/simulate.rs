@@ -42,7 +42,7 @@ type Arrays<'py> = (Bound<'py, PyArrayDyn<f64>>, Bound<'py, PyArrayDyn<f64>>);
 
 /// Draws states and measurements of `runs` runs; see the stub.
 #[pyfunction]
-#[pyo3(signature = (model, mean, cov, t0, time, seed, runs=1, *, z=None, u=None, track=0, substeps=16, threads=None))]
+#[pyo3(signature = (model, mean, cov, t0, time, seed, runs=1, *, z=None, u=None, track=0, substeps=16, threads=None, first_run=0))]
 pub fn simulate<'py>(
     py: Python<'py>,
     model: &Model,
@@ -57,6 +57,7 @@ pub fn simulate<'py>(
     track: u32,
     substeps: usize,
     threads: Option<usize>,
+    first_run: u32,
 ) -> Result<Arrays<'py>> {
     if substeps == 0 {
         return Err(Input::new("substeps", "`substeps` is 0: a gap is at least one step").into());
@@ -72,7 +73,7 @@ pub fn simulate<'py>(
     let bytes = k.saturating_mul(n + d).saturating_mul(16).saturating_add(size_of::<Option<Simulation>>());
     room("runs", runs, bytes)?;
     let threads = if model.needs_python() { 1 } else { self::threads(threads)? };
-    let drawn = each(py, runs as usize, threads, |run| draw.run(run as u32));
+    let drawn = each(py, runs as usize, threads, |run| draw.run(first_run.saturating_add(run as u32)));
     let drawn = drawn.map_err(|ended| ended.raised)?;
     let (mut states, mut measured) = (Vec::new(), Vec::new());
     for one in drawn {

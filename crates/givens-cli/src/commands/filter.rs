@@ -121,8 +121,8 @@ impl Target<'_> {
         manner: Manner,
     ) -> AnswerWriter<'p> {
         let smoothed = goals.iter().any(|goal| *goal != Goal::Filter);
-        let (model, gated, threads) = (&plan.model, plan.choice.gate.is_some(), manner.threads);
-        AnswerWriter { format: self.format, layout: self.layout, model, tracks, smoothed, gated, threads }
+        let (gated, threads) = (plan.choice.gate.is_some(), manner.threads);
+        AnswerWriter { format: self.format, layout: self.layout, tracks, smoothed, gated, threads }
     }
 }
 

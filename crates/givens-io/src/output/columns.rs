@@ -63,8 +63,8 @@ fn hand_on(file: &mut ArrowWriter<Vec<u8>>, out: &mut dyn Write) -> io::Result<(
     Ok(())
 }
 
-fn schema(of: &AnswerWriter) -> Schema {
-    let (model, tracks) = (of.model, of.tracks);
+pub(super) fn schema(of: &AnswerWriter) -> Schema {
+    let (scheme, tracks) = (&of.tracks.scheme, of.tracks);
     let number = |name: &str| Field::new(name, DataType::Float64, true);
     let time = if tracks.is_dated() {
         DataType::Timestamp(TimeUnit::Nanosecond, Some("UTC".into()))
@@ -80,14 +80,14 @@ fn schema(of: &AnswerWriter) -> Schema {
         fields.push(Field::new("track_id", of, false));
     }
     fields.extend(tracks.has_sensor.then(|| Field::new("sensor", DataType::Utf8, true)));
-    let n = model.states.len();
+    let n = scheme.states.len();
     if of.layout == Layout::Tidy {
         let name = DataType::Dictionary(Box::new(DataType::Int32), Box::new(DataType::Utf8));
         fields.push(Field::new("state", name, false));
         fields.extend(["mean", "std"].map(number));
     } else {
-        fields.extend(model.states.iter().map(|name| number(name)));
-        fields.extend(model.states.iter().map(|name| number(&format!("{name}_std"))));
+        fields.extend(scheme.states.iter().map(|name| number(name)));
+        fields.extend(scheme.states.iter().map(|name| number(&format!("{name}_std"))));
         fields.push(number("nis"));
         fields.push(Field::new("nis_dof", DataType::Int64, true));
         fields.push(number("log_likelihood"));
@@ -100,16 +100,16 @@ fn schema(of: &AnswerWriter) -> Schema {
     }
     let about = [
         ("givens.version", env!("CARGO_PKG_VERSION").to_owned()),
-        ("givens.model", model.fingerprint()),
-        ("givens.states", model.states.join(",")),
+        ("givens.model", scheme.fingerprint.clone()),
+        ("givens.states", scheme.states.join(",")),
     ];
     let about: HashMap<String, String> = about.map(|(key, value)| (key.to_owned(), value)).into();
     Schema::new_with_metadata(fields, about)
 }
 
-fn arrays(of: &AnswerWriter, lines: &[Line]) -> Result<Vec<ArrayRef>, String> {
-    let (model, tracks) = (of.model, of.tracks);
-    let n = model.states.len();
+pub(super) fn arrays(of: &AnswerWriter, lines: &[Line]) -> Result<Vec<ArrayRef>, String> {
+    let (scheme, tracks) = (&of.tracks.scheme, of.tracks);
+    let n = scheme.states.len();
     let tidy = of.layout == Layout::Tidy;
     // in the tidy layout a line has a row for each of its states
     let each = if tidy { n } else { 1 };
@@ -141,7 +141,7 @@ fn arrays(of: &AnswerWriter, lines: &[Line]) -> Result<Vec<ArrayRef>, String> {
         let mut names = StringDictionaryBuilder::<Int32Type>::new();
         let (mut means, mut stds) = (Float64Builder::new(), Float64Builder::new());
         for line in lines {
-            for (i, name) in model.states.iter().enumerate() {
+            for (i, name) in scheme.states.iter().enumerate() {
                 names.append_value(name);
                 means.append_option(line.estimate.map(|(est, k)| est.mean(k)[i]));
                 stds.append_option(line.estimate.map(|(est, k)| est.std(k, i)));
@@ -200,7 +200,7 @@ fn packed(lines: &[Line], n: usize) -> ArrayRef {
 }
 
 /// Nanoseconds since 1970 of a time in RFC 3339.
-fn instant(text: &str) -> Result<i64, String> {
+pub(super) fn instant(text: &str) -> Result<i64, String> {
     let nanoseconds = Calendar::parse(text)?.nanoseconds();
     i64::try_from(nanoseconds)
         .map_err(|_| format!("{text} is beyond what nanoseconds since 1970 count: write CSV"))

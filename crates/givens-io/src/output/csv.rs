@@ -6,16 +6,15 @@ use std::io;
 use givens::scalar::Shown;
 
 use super::{Line, told};
-use crate::model_file::Model;
 use crate::table::Tracks;
 
 /// The header.
-pub(super) fn header(model: &Model, tracks: &Tracks, gated: bool) -> io::Result<Vec<u8>> {
+pub(super) fn header(tracks: &Tracks, gated: bool) -> io::Result<Vec<u8>> {
     let mut header = vec!["time".to_owned()];
     header.extend(tracks.has_track_id.then(|| "track_id".to_owned()));
     header.extend(tracks.has_sensor.then(|| "sensor".to_owned()));
-    header.extend(model.states.iter().cloned());
-    header.extend(model.states.iter().map(|name| format!("{name}_std")));
+    header.extend(tracks.scheme.states.iter().cloned());
+    header.extend(tracks.scheme.states.iter().map(|name| format!("{name}_std")));
     header.extend(["nis", "nis_dof", "log_likelihood"].map(str::to_owned));
     header.extend(gated.then(|| "gated".to_owned()));
     let mut table = csv::Writer::from_writer(Vec::new());
@@ -24,9 +23,9 @@ pub(super) fn header(model: &Model, tracks: &Tracks, gated: bool) -> io::Result<
 }
 
 /// The rows of these lines.
-pub(super) fn rows(model: &Model, tracks: &Tracks, gated: bool, lines: &[Line]) -> io::Result<Vec<u8>> {
+pub(super) fn rows(tracks: &Tracks, gated: bool, lines: &[Line]) -> io::Result<Vec<u8>> {
     let mut rows = Rows { table: csv::Writer::from_writer(Vec::new()), digits: String::new() };
-    let n = model.states.len();
+    let n = tracks.scheme.states.len();
     for line in lines {
         rows.text(&line.row.time_text)?;
         if tracks.has_track_id {

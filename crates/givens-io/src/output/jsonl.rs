@@ -7,12 +7,12 @@ use givens::Estimates;
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
 use super::Line;
-use crate::model_file::Model;
+use crate::table::Tracks;
 
 /// The objects of these lines.
-pub(super) fn rows(model: &Model, smoothed: bool, gated: bool, lines: &[Line]) -> io::Result<Vec<u8>> {
+pub(super) fn rows(tracks: &Tracks, smoothed: bool, gated: bool, lines: &[Line]) -> io::Result<Vec<u8>> {
     let columns: Vec<&str> =
-        model.sensors.iter().flat_map(|sensor| sensor.columns.iter().map(String::as_str)).collect();
+        tracks.scheme.sensors.iter().flat_map(|sensor| sensor.columns.iter().map(String::as_str)).collect();
     let mut out = Vec::new();
     for line in lines {
         serde_json::to_writer(&mut out, &Object { columns: &columns, smoothed, gated, line })?;

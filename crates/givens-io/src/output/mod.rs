@@ -5,6 +5,7 @@ mod columns;
 mod csv;
 mod destination;
 mod jsonl;
+mod lent;
 mod place;
 mod simulated;
 mod written;
@@ -16,11 +17,11 @@ use std::borrow::Cow;
 use std::io::{self, Write};
 
 pub use destination::{Destination, DestinationError, make_folder, read_back};
+pub use lent::{FailedTrack, LentAnswers};
 pub(crate) use place::settle_name;
 pub use simulated::{Drawn, write_measurements, write_states};
 pub use written::Written;
 
-use crate::model_file::Model;
 use crate::table::{Row, Track, Tracks};
 
 /// How answers are written.
@@ -78,6 +79,22 @@ struct Line<'a> {
     started: bool,
 }
 
+/// The lines of these parts, whose rows these are, in the order of the table.
+fn lines<'a>(tracks: &'a Tracks, parts: &[Part<'a>], stretches: &'a [Cow<'a, [Row]>]) -> Vec<Line<'a>> {
+    let mut lines = Vec::new();
+    for (&Part { track, from, row: first, started, estimates }, rows) in parts.iter().zip(stretches) {
+        for (k, row) in (from..).zip(rows.iter()) {
+            let estimate = k.checked_sub(first).map(|at| (estimates, at));
+            let sensor = row.sensor.and_then(|i| tracks.scheme.sensors.get(i));
+            let sensor = sensor.map(|sensor| sensor.name.as_str());
+            let started = started && k == first;
+            lines.push(Line { track: track.id.as_deref(), row, sensor, estimate, started });
+        }
+    }
+    lines.sort_by_key(|line| line.row.index);
+    lines
+}
+
 /// A number that reads back exactly, with an exponent where digits alone would be long.
 fn digits(x: f64) -> String {
     Shown(x).to_string()
@@ -119,9 +136,7 @@ pub struct AnswerWriter<'a> {
     pub format: Format,
     /// With which columns, of a Parquet file.
     pub layout: Layout,
-    /// The model, for its names.
-    pub model: &'a Model,
-    /// The table, for its columns.
+    /// The table, for its columns and the names of the model.
     pub tracks: &'a Tracks,
     /// Whether the filtered belief stands beside the smoothed one, in JSON lines.
     pub smoothed: bool,
@@ -145,7 +160,7 @@ impl<'a> AnswerWriter<'a> {
     pub fn begin(self, out: &mut dyn Write) -> io::Result<Answers<'a>> {
         let mut columns = None;
         match self.format {
-            Format::Csv => out.write_all(&csv::header(self.model, self.tracks, self.gated)?)?,
+            Format::Csv => out.write_all(&csv::header(self.tracks, self.gated)?)?,
             Format::Jsonl => {}
             Format::Parquet => columns = Some(columns::Columns::begin(&self, out)?),
         }
@@ -165,24 +180,13 @@ impl Answers<'_> {
     /// # Errors
     /// What the writer says.
     pub fn rows(&mut self, out: &mut dyn Write, parts: &[Part]) -> io::Result<()> {
-        let AnswerWriter { format, model, tracks, smoothed, gated, threads, .. } = self.by;
+        let AnswerWriter { format, tracks, smoothed, gated, threads, .. } = self.by;
         let stretches = parts.iter().map(Part::rows).collect::<io::Result<Vec<_>>>()?;
-        let mut lines = Vec::new();
-        for (&Part { track, from, row: first, started, estimates }, rows) in parts.iter().zip(&stretches) {
-            for (k, row) in (from..).zip(rows.iter()) {
-                let estimate = k.checked_sub(first).map(|at| (estimates, at));
-                let sensor = row.sensor.and_then(|i| model.sensors.get(i)).map(|sensor| sensor.name.as_str());
-                let started = started && k == first;
-                lines.push(Line { track: track.id.as_deref(), row, sensor, estimate, started });
-            }
-        }
-        lines.sort_by_key(|line| line.row.index);
+        let lines = lines(tracks, parts, &stretches);
         match (format, &mut self.columns) {
-            (Format::Csv, _) => {
-                blocks::write(out, &lines, threads, |lines| csv::rows(model, tracks, gated, lines))
-            }
+            (Format::Csv, _) => blocks::write(out, &lines, threads, |lines| csv::rows(tracks, gated, lines)),
             (Format::Jsonl, _) => {
-                blocks::write(out, &lines, threads, |lines| jsonl::rows(model, smoothed, gated, lines))
+                blocks::write(out, &lines, threads, |lines| jsonl::rows(tracks, smoothed, gated, lines))
             }
             (Format::Parquet, Some(columns)) => columns.rows(&self.by, out, &lines),
             (Format::Parquet, None) => Err(io::Error::other("a Parquet file cannot be gone on with")),

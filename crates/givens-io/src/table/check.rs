@@ -9,7 +9,7 @@ use super::rows::Rows;
 use super::time::{Calendar, Time, differ, time_text};
 use super::{Row, Track};
 use crate::findings::Findings;
-use crate::model_file::Model;
+use crate::scheme::Scheme;
 
 /// A gap is a whole number of steps if it is so to this part of one.
 const WHOLE: f64 = 1e-6;
@@ -26,7 +26,7 @@ pub(super) struct Growing {
 /// What is checked: a row, and where its time stands.
 pub(super) struct Check<'a, C> {
     pub findings: &'a Findings<'a>,
-    pub model: &'a Model,
+    pub scheme: &'a Scheme,
     /// The column of times.
     pub column: usize,
     /// The row.
@@ -74,11 +74,11 @@ impl<C: Cells> Check<'_, C> {
 
     /// The instant from which a track with this first time counts, and the time of the initial belief where the model states it.
     fn origin(&self, first: Time) -> Option<(Option<Calendar>, Option<f64>)> {
-        let model = self.model;
-        match (first, model.epoch) {
-            (Time::Seconds(_), None) => Some((None, model.time)),
-            (Time::Calendar(_), Some(epoch)) => Some((Some(epoch), model.time)),
-            (Time::Calendar(instant), None) => Some((Some(instant), model.time)),
+        let scheme = self.scheme;
+        match (first, scheme.epoch) {
+            (Time::Seconds(_), None) => Some((None, scheme.time)),
+            (Time::Calendar(_), Some(epoch)) => Some((Some(epoch), scheme.time)),
+            (Time::Calendar(instant), None) => Some((Some(instant), scheme.time)),
             (Time::Seconds(_), Some(epoch)) => {
                 let message = format!("the table gives times in seconds, but the model's `time` is {epoch}");
                 self.wrong(message, "write both as seconds, or both as RFC 3339");
@@ -123,7 +123,7 @@ impl<C: Cells> Check<'_, C> {
 
     /// With a fixed step, a gap is a whole number of them.
     fn steps(&self, row: &Row, gap: f64, from: f64, there: impl FnOnce() -> String) {
-        let Some(step) = self.model.step() else { return };
+        let Some(step) = self.scheme.step else { return };
         let steps = gap / step;
         // Times that are large against the step bring their own rounding.
         let rounding = 4.0 * f64::EPSILON * from.abs().max(row.time.abs()) / step;

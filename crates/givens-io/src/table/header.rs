@@ -6,7 +6,7 @@ use givens_expr::suggest;
 
 use super::sheet::Sheet;
 use crate::findings::{count, list};
-use crate::model_file::Model;
+use crate::scheme::Scheme;
 
 /// Which column brings what; indices are of columns.
 #[derive(Debug)]
@@ -43,22 +43,22 @@ impl Columns {
 }
 
 /// Finds the columns of measurements, or only those of times and controls; what is missing is found wrong.
-pub(super) fn columns(sheet: &Sheet, model: &Model, measured: bool) -> Option<Columns> {
+pub(super) fn columns(sheet: &Sheet, scheme: &Scheme, measured: bool) -> Option<Columns> {
     let time = time(sheet);
     if time.is_none() && is_model(sheet) {
         return None;
     }
-    let controls: Vec<usize> = model.controls.iter().filter_map(|name| control(sheet, name)).collect();
+    let controls: Vec<usize> = scheme.controls.iter().filter_map(|name| control(sheet, name)).collect();
     let sensor = sheet.column("sensor");
     let track = sheet.column("track_id");
     let (measures, complete) = if measured {
-        measures(sheet, model)
+        measures(sheet, scheme)
     } else {
-        (vec![None; model.sensors.iter().map(|sensor| sensor.columns.len()).sum()], true)
+        (vec![None; scheme.sensors.iter().map(|sensor| sensor.columns.len()).sum()], true)
     };
     let shared = shared(&measures);
-    let ambiguous = sensor.is_none() && ambiguous(sheet, model, &measures, &shared);
-    let names_measure = |name: &String| model.sensors.iter().any(|sensor| sensor.columns.contains(name));
+    let ambiguous = sensor.is_none() && ambiguous(sheet, scheme, &measures, &shared);
+    let names_measure = |name: &String| scheme.sensors.iter().any(|sensor| sensor.columns.contains(name));
     let ignored = sheet.header.iter().enumerate().filter(|&(column, name)| {
         let read = Some(column) == time || Some(column) == sensor || Some(column) == track;
         !(read || controls.contains(&column) || names_measure(name))
@@ -69,7 +69,7 @@ pub(super) fn columns(sheet: &Sheet, model: &Model, measured: bool) -> Option<Co
         },
     );
     let ignored = ignored.collect();
-    let found = complete && !ambiguous && controls.len() == model.controls.len();
+    let found = complete && !ambiguous && controls.len() == scheme.controls.len();
     time.filter(|_| found).map(|time| Columns {
         time,
         track,
@@ -83,8 +83,8 @@ pub(super) fn columns(sheet: &Sheet, model: &Model, measured: bool) -> Option<Co
 }
 
 /// Whether a column bears the name of a measure.
-pub(super) fn names_measures(sheet: &Sheet, model: &Model) -> bool {
-    let mut columns = model.sensors.iter().flat_map(|sensor| &sensor.columns);
+pub(super) fn names_measures(sheet: &Sheet, scheme: &Scheme) -> bool {
+    let mut columns = scheme.sensors.iter().flat_map(|sensor| &sensor.columns);
     columns.any(|name| sheet.column(name).is_some())
 }
 
@@ -135,12 +135,12 @@ fn control(sheet: &Sheet, name: &str) -> Option<usize> {
 }
 
 /// The columns of all measures, and whether they can be used.
-fn measures(sheet: &Sheet, model: &Model) -> (Vec<Option<usize>>, bool) {
+fn measures(sheet: &Sheet, scheme: &Scheme) -> (Vec<Option<usize>>, bool) {
     let (mut found, mut complete, mut any) = (Vec::new(), true, false);
-    for (index, sensor) in model.sensors.iter().enumerate() {
+    for (index, sensor) in scheme.sensors.iter().enumerate() {
         let columns: Vec<Option<usize>> = sensor.columns.iter().map(|name| sheet.column(name)).collect();
         let elsewhere = |name: &String| {
-            model.sensors.iter().enumerate().any(|(other, s)| other != index && s.columns.contains(name))
+            scheme.sensors.iter().enumerate().any(|(other, s)| other != index && s.columns.contains(name))
         };
         // A column shared with another sensor does not show that this one is there, unless it has no other.
         let own = |i: usize| sensor.columns.get(i).is_some_and(|name| !elsewhere(name));
@@ -162,7 +162,7 @@ fn measures(sheet: &Sheet, model: &Model) -> (Vec<Option<usize>>, bool) {
     }
     if !any {
         complete = false;
-        let names = || model.sensors.iter().flat_map(|sensor| sensor.columns.iter().map(String::as_str));
+        let names = || scheme.sensors.iter().flat_map(|sensor| sensor.columns.iter().map(String::as_str));
         let message = format!(
             "the table has none of the model's {}: {}",
             count(names().count(), "measure"),
@@ -184,11 +184,11 @@ fn shared(measures: &[Option<usize>]) -> Vec<bool> {
 }
 
 /// Without a column `sensor`, a value in a shared column could be of either sensor.
-fn ambiguous(sheet: &Sheet, model: &Model, measures: &[Option<usize>], shared: &[bool]) -> bool {
+fn ambiguous(sheet: &Sheet, scheme: &Scheme, measures: &[Option<usize>], shared: &[bool]) -> bool {
     let Some((column, _)) = measures.iter().zip(shared).find(|(_, shared)| **shared) else { return false };
     let column = column.unwrap_or(0);
     let name = sheet.header.get(column).map_or("", String::as_str);
-    let owners = model.sensors.iter().filter(|sensor| sensor.columns.iter().any(|other| other == name));
+    let owners = scheme.sensors.iter().filter(|sensor| sensor.columns.iter().any(|other| other == name));
     let message =
         format!("the column `{name}` belongs to the sensors {}", list(owners.map(|s| s.name.as_str())));
     sheet.findings.wrong_help(

@@ -1,5 +1,6 @@
 //! Tables of measurements, as CSV or Parquet, and of true states, as CSV.
 
+mod batches;
 mod cell;
 mod cells;
 mod check;
@@ -17,7 +18,9 @@ mod tests;
 mod time;
 mod truth;
 
-pub(crate) use parquet::{MAGIC, broken as unreadable_parquet, is_parquet, names_things, whole_chunks};
+pub use batches::lent_tracks;
+pub(crate) use batches::names_things;
+pub(crate) use parquet::{MAGIC, broken as unreadable_parquet, is_parquet, whole_chunks};
 pub use rows::Rows;
 pub use time::Calendar;
 pub use truth::{Truth, parse_truth, read_truth};
@@ -29,14 +32,20 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::InputErrors;
 use crate::model_file::Model;
+use crate::scheme::Scheme;
 use crate::source::{called, unreadable, whole};
 use chunks::Chunks;
+use reading::How;
 
 /// The rows of a table, track by track.
 #[derive(Clone, Debug)]
 pub struct Tracks {
+    /// What the table was read for.
+    pub scheme: Scheme,
     /// The tracks in the order in which the table first names them; a table without `track_id` is one track.
     pub tracks: Vec<Track>,
+    /// Tracks that were left out, in the order of the rows that are wrong.
+    pub refused: Vec<Refused>,
     /// Columns that the model does not use.
     pub ignored: Vec<String>,
     /// Whether the table has the column `track_id`.
@@ -49,6 +58,17 @@ pub struct Tracks {
     pub ranges: Vec<Option<[f64; 2]>>,
     /// Tells the text of the table from others.
     pub fingerprint: String,
+}
+
+/// A track that was left out.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Refused {
+    /// The cell of `track_id`; none for a row that names no track, or in a table without tracks.
+    pub id: Option<String>,
+    /// The row that is wrong, over the whole table, from zero.
+    pub row: usize,
+    /// What is wrong, and the remedy.
+    pub message: String,
 }
 
 /// One track: rows in time order.
@@ -140,7 +160,16 @@ impl Track {
 /// # Errors
 /// Everything that is wrong with the table, by line, column and name.
 pub fn read_tracks(path: &str, model: &Model) -> Result<Tracks, InputErrors> {
-    read(path, model, true)
+    read(path, &model.scheme(), How::default())
+}
+
+/// [`read_tracks`] for whatever model a scheme is of. A track with a row that is wrong is left out, and named among
+/// [`Tracks::refused`]; the others stay.
+///
+/// # Errors
+/// What is wrong with the table as a whole: its header, or a file that cannot be read.
+pub fn read_tracks_apart(path: &str, scheme: &Scheme) -> Result<Tracks, InputErrors> {
+    read(path, scheme, How { apart: true, ..How::default() })
 }
 
 /// Reads a table of rows to simulate, which need only bring times, and the controls of the model if it has some. `z` is
@@ -150,7 +179,7 @@ pub fn read_tracks(path: &str, model: &Model) -> Result<Tracks, InputErrors> {
 /// # Errors
 /// As [`read_tracks`].
 pub fn read_times(path: &str, model: &Model) -> Result<Tracks, InputErrors> {
-    read(path, model, false)
+    read(path, &model.scheme(), How { measured: false, ..How::default() })
 }
 
 /// [`read_tracks`] from a text; errors call it `name`.
@@ -158,23 +187,23 @@ pub fn read_times(path: &str, model: &Model) -> Result<Tracks, InputErrors> {
 /// # Errors
 /// As [`read_tracks`].
 pub fn parse_tracks(text: &str, name: &str, model: &Model) -> Result<Tracks, InputErrors> {
-    tracks(&mut text.as_bytes(), name, model, true)
+    tracks(&mut text.as_bytes(), name, &model.scheme(), How::default())
 }
 
-fn read(path: &str, model: &Model, measured: bool) -> Result<Tracks, InputErrors> {
+fn read(path: &str, scheme: &Scheme, how: How) -> Result<Tracks, InputErrors> {
     let name = called(path);
     if path == "-" {
-        return tracks(&mut io::stdin().lock(), name, model, measured);
+        return tracks(&mut io::stdin().lock(), name, scheme, how);
     }
     let mut file = File::open(path).map_err(|error| whole(name, unreadable(&error)))?;
     let found = file.metadata().is_ok_and(|about| about.is_file())
         && parquet::is_parquet(&mut file).map_err(|error| whole(name, unreadable(&error)))?;
     if found {
-        return parquet::tracks(file, name, model, measured, reading::HELD);
+        return parquet::tracks(file, name, scheme, how);
     }
-    tracks(&mut file, name, model, measured)
+    tracks(&mut file, name, scheme, how)
 }
 
-fn tracks(text: &mut dyn Read, name: &str, model: &Model, measured: bool) -> Result<Tracks, InputErrors> {
-    reading::tracks(Chunks::new(name, text, chunks::USUAL), name, model, measured, reading::HELD)
+fn tracks(text: &mut dyn Read, name: &str, scheme: &Scheme, how: How) -> Result<Tracks, InputErrors> {
+    reading::tracks(Chunks::new(name, text, chunks::USUAL), name, scheme, how)
 }

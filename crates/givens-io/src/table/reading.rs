@@ -12,22 +12,21 @@ use super::row::{row, track_id};
 use super::sheet::Sheet;
 use super::spool::Spool;
 use super::time::Time;
-use super::{Track, Tracks};
-use crate::error::InputErrors;
+use super::{Refused, Tracks};
+use crate::error::{InputError, InputErrors};
 use crate::findings::{Findings, Found};
-use crate::model_file::Model;
+use crate::scheme::Scheme;
 use crate::source::whole;
 
 /// Rows of all tracks that are held in memory, some 200 bytes each; of a longer table they lie on a disk.
 pub(super) const HELD: usize = 1 << 19;
 
-/// Reads a table, holding up to so many of its rows in memory.
+/// Reads a table.
 pub(super) fn tracks(
     mut chunks: Chunks,
     name: &str,
-    model: &Model,
-    measured: bool,
-    held: usize,
+    scheme: &Scheme,
+    how: How,
 ) -> Result<Tracks, InputErrors> {
     let (mut found, mut begun) = (Found::default(), None);
     loop {
@@ -35,7 +34,7 @@ pub(super) fn tracks(
         let findings = Findings::after(found, &chunk.source);
         let (sheet, mut reading) = match begun {
             Some((names, reading)) => (Sheet::resume(&findings, names), reading),
-            None => match open(&findings, model, measured, held) {
+            None => match open(&findings, scheme, how) {
                 Some(begun) => begun,
                 None => return findings.finish(None),
             },
@@ -55,24 +54,40 @@ pub(super) fn tracks(
 }
 
 /// Reads the header; what is wrong with it is found so.
-pub(super) fn open<'f, 'm>(
+pub(super) fn open<'f>(
     findings: &'f Findings<'f>,
-    model: &'m Model,
-    measured: bool,
-    held: usize,
-) -> Option<(Sheet<'f>, Reading<'m>)> {
-    let known = if measured { "time and the measures" } else { "time" };
+    scheme: &Scheme,
+    how: How,
+) -> Option<(Sheet<'f>, Reading)> {
+    let known = if how.measured { "time and the measures" } else { "time" };
     let sheet = Sheet::open(findings, known)?;
-    let measured = measured || header::names_measures(&sheet, model);
-    let columns = header::columns(&sheet, model, measured)?;
-    Some((sheet, Reading::new(model, columns, held)))
+    let measured = how.measured || header::names_measures(&sheet, scheme);
+    let columns = header::columns(&sheet, scheme, measured)?;
+    Some((sheet, Reading::new(scheme, columns, how)))
+}
+
+/// How a table is read.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct How {
+    /// Whether it must have columns of measures.
+    pub measured: bool,
+    /// Rows that are held in memory.
+    pub held: usize,
+    /// Whether a track with a wrong row is left out alone, in place of the whole table.
+    pub apart: bool,
+}
+
+impl Default for How {
+    fn default() -> Self {
+        Self { measured: true, held: HELD, apart: false }
+    }
 }
 
 /// A table of which a part was read.
-pub(super) struct Reading<'m> {
-    model: &'m Model,
+pub(super) struct Reading {
+    scheme: Scheme,
     columns: Columns,
-    /// In the order in which they are first named; none of a track whose times are not those of the model.
+    /// In the order in which they are first named; none of a track that is refused.
     tracks: Vec<Option<Growing>>,
     known: HashMap<String, usize>,
     /// The kind of the times.
@@ -82,16 +97,18 @@ pub(super) struct Reading<'m> {
     /// Whether names of tracks are whole numbers.
     pub whole_ids: bool,
     ranges: Vec<Option<[f64; 2]>>,
-    /// Rows that were not written to the disk, and how many may be.
-    held: (usize, usize),
+    /// Rows that were not written to the disk.
+    held: usize,
+    how: How,
+    refused: Vec<Refused>,
     spool: Option<Arc<Spool>>,
 }
 
-impl<'m> Reading<'m> {
-    fn new(model: &'m Model, columns: Columns, held: usize) -> Self {
+impl Reading {
+    fn new(scheme: &Scheme, columns: Columns, how: How) -> Self {
         let ranges = vec![None; columns.measures.len()];
         Self {
-            model,
+            scheme: scheme.clone(),
             columns,
             tracks: Vec::new(),
             known: HashMap::new(),
@@ -99,7 +116,9 @@ impl<'m> Reading<'m> {
             rows: 0,
             whole_ids: false,
             ranges,
-            held: (0, held),
+            held: 0,
+            how,
+            refused: Vec::new(),
             spool: None,
         }
     }
@@ -109,10 +128,41 @@ impl<'m> Reading<'m> {
         &self.columns
     }
 
-    /// Takes in a row; what is wrong with it is found so.
+    /// Takes in a row; what is wrong with it is found so, or, where tracks are read apart, ends its track.
     pub fn take(&mut self, findings: &Findings, fields: &impl Cells) -> io::Result<()> {
-        let Self { model, columns, .. } = self;
-        let raw = row(findings, fields, columns, model, self.kind, self.rows);
+        if !self.how.apart {
+            return self.row(findings, fields);
+        }
+        let own = Findings::new(findings.source);
+        self.row(&own, fields)?;
+        if let Err(InputErrors { errors, .. }) = own.finish(Some(())) {
+            let message = errors.into_iter().next().map_or_else(String::new, InputError::brief);
+            self.refuse(fields, message);
+        }
+        Ok(())
+    }
+
+    /// Leaves the track of the row just read out.
+    fn refuse(&mut self, fields: &impl Cells, message: String) {
+        let name = self.columns.track.map(|column| fields.word(column));
+        // a row of no track is no other's fault
+        if name != Some("") {
+            let next = self.tracks.len();
+            let place = *self.known.entry(name.unwrap_or_default().to_owned()).or_insert(next);
+            if place == next {
+                self.tracks.push(None);
+            } else if self.tracks.get_mut(place).is_none_or(|track| track.take().is_none()) {
+                // of a track that was refused before
+                return;
+            }
+        }
+        let id = name.filter(|name| !name.is_empty()).map(str::to_owned);
+        self.refused.push(Refused { id, row: self.rows - 1, message });
+    }
+
+    fn row(&mut self, findings: &Findings, fields: &impl Cells) -> io::Result<()> {
+        let Self { scheme, columns, .. } = self;
+        let raw = row(findings, fields, columns, scheme, self.kind, self.rows);
         self.rows += 1;
         let track = match columns.track {
             Some(column) => track_id(findings, fields, column),
@@ -126,7 +176,7 @@ impl<'m> Reading<'m> {
                 *range = Some([least.min(z), most.max(z)]);
             }
         }
-        let check = Check { findings, model, column: columns.time, cells: fields };
+        let check = Check { findings, scheme, column: columns.time, cells: fields };
         if let Some(&track) = self.known.get(id) {
             if let Some(Some(track)) = self.tracks.get_mut(track) {
                 track.push(&check, raw);
@@ -136,13 +186,13 @@ impl<'m> Reading<'m> {
             let id = columns.track.map(|_| id.to_owned());
             self.tracks.push(Growing::begin(&check, id, raw));
         }
-        self.held.0 += 1;
-        if self.held.0 >= self.held.1 { self.spill() } else { Ok(()) }
+        self.held += 1;
+        if self.held >= self.how.held { self.spill() } else { Ok(()) }
     }
 
     /// Writes what is held to a disk.
     fn spill(&mut self) -> io::Result<()> {
-        self.held.0 = 0;
+        self.held = 0;
         let spool = match &self.spool {
             Some(spool) => Arc::clone(spool),
             None => Arc::clone(self.spool.insert(Arc::new(Spool::new()?))),
@@ -161,11 +211,28 @@ impl<'m> Reading<'m> {
     }
 
     fn finish(self, fingerprint: String) -> Option<Tracks> {
-        let tracks: Vec<Track> =
-            self.tracks.into_iter().map(|growing| Some(growing?.track)).collect::<Option<_>>()?;
+        let mut tracks = Vec::with_capacity(self.tracks.len());
+        for growing in self.tracks {
+            match growing {
+                Some(growing) => tracks.push(growing.track),
+                None if self.how.apart => {}
+                None => return None,
+            }
+        }
+        let (scheme, refused) = (self.scheme, self.refused);
         let (has_track_id, has_sensor) = (self.columns.track.is_some(), self.columns.sensor.is_some());
         let (ignored, ranges) = (self.columns.ignored, self.ranges);
         let whole_ids = self.whole_ids;
-        Some(Tracks { tracks, ignored, has_track_id, whole_ids, has_sensor, ranges, fingerprint })
+        Some(Tracks {
+            scheme,
+            tracks,
+            refused,
+            ignored,
+            has_track_id,
+            whole_ids,
+            has_sensor,
+            ranges,
+            fingerprint,
+        })
     }
 }

@@ -8,7 +8,7 @@ use super::cells::Cells;
 use super::header::Columns;
 use super::time::Time;
 use crate::findings::{Findings, list};
-use crate::model_file::Model;
+use crate::scheme::Scheme;
 
 /// A row with its time as the table gives it.
 pub(super) struct Raw {
@@ -32,7 +32,7 @@ pub(super) fn row(
     findings: &Findings,
     fields: &impl Cells,
     columns: &Columns,
-    model: &Model,
+    scheme: &Scheme,
     before: Option<Time>,
     index: usize,
 ) -> Option<Raw> {
@@ -50,11 +50,11 @@ pub(super) fn row(
             }
         })
         .collect();
-    let sensor = sensor(findings, fields, columns, model).ok()?;
+    let sensor = sensor(findings, fields, columns, scheme).ok()?;
     let z = if columns.measured {
-        measures(findings, fields, columns, model, sensor)
+        measures(findings, fields, columns, scheme, sensor)
     } else {
-        asked(findings, fields, model, sensor)
+        asked(findings, fields, scheme, sensor)
     };
     let (time, time_text) = time?;
     let row = Row {
@@ -78,7 +78,7 @@ fn sensor(
     findings: &Findings,
     fields: &impl Cells,
     columns: &Columns,
-    model: &Model,
+    scheme: &Scheme,
 ) -> Result<Option<usize>, Found> {
     let Some((column, name)) = columns.sensor.map(|column| (column, fields.word(column))) else {
         return Ok(None);
@@ -86,8 +86,8 @@ fn sensor(
     if name.is_empty() {
         return Ok(None);
     }
-    let found = model.sensors.iter().position(|sensor| sensor.name == name);
-    let names = || model.sensors.iter().map(|sensor| sensor.name.as_str());
+    let found = scheme.sensors.iter().position(|sensor| sensor.name == name);
+    let names = || scheme.sensors.iter().map(|sensor| sensor.name.as_str());
     let Some(index) = found else {
         fields.wrong_by(findings, column, || {
             let help = match suggest(name, names()) {
@@ -102,20 +102,20 @@ fn sensor(
 }
 
 /// A zero for each measure that a row of a table of times asks for: those of its sensor, or all.
-fn asked(findings: &Findings, fields: &impl Cells, model: &Model, sensor: Option<usize>) -> Vec<f64> {
-    let own = sensor.and_then(|index| model.sensors.get(index));
-    if let (None, Some(name)) = (own, shared_column(model)) {
+fn asked(findings: &Findings, fields: &impl Cells, scheme: &Scheme, sensor: Option<usize>) -> Vec<f64> {
+    let own = sensor.and_then(|index| scheme.sensors.get(index));
+    if let (None, Some(name)) = (own, shared_column(scheme)) {
         let message = format!("the sensors share the column `{name}`, and this row names none");
         fields.wrong(findings, 0, message, "name a `sensor` in each row");
     }
     let asks = |index: &usize| own.is_none_or(|own| own.measures.contains(index));
-    (0..model.measures()).map(|index| if asks(&index) { 0.0 } else { f64::NAN }).collect()
+    (0..scheme.measures()).map(|index| if asks(&index) { 0.0 } else { f64::NAN }).collect()
 }
 
 /// A column that belongs to several sensors.
-fn shared_column(model: &Model) -> Option<&str> {
+fn shared_column(scheme: &Scheme) -> Option<&str> {
     let mut seen = std::collections::HashSet::new();
-    let mut names = model.sensors.iter().flat_map(|sensor| &sensor.columns);
+    let mut names = scheme.sensors.iter().flat_map(|sensor| &sensor.columns);
     names.find(|name| !seen.insert(name.as_str())).map(String::as_str)
 }
 
@@ -124,11 +124,11 @@ fn measures(
     findings: &Findings,
     fields: &impl Cells,
     columns: &Columns,
-    model: &Model,
+    scheme: &Scheme,
     sensor: Option<usize>,
 ) -> Vec<f64> {
     let mut z = vec![f64::NAN; columns.measures.len()];
-    let own = sensor.and_then(|index| model.sensors.get(index));
+    let own = sensor.and_then(|index| scheme.sensors.get(index));
     let mut told = Vec::new();
     for (index, (&column, &shared)) in columns.measures.iter().zip(&columns.shared).enumerate() {
         let Some(column) = column else { continue };

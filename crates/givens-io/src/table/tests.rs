@@ -1,7 +1,7 @@
 //! A table is the same, whatever is in memory of it at once.
 
 use super::chunks::{Chunks, USUAL};
-use super::reading::{HELD, tracks};
+use super::reading::{HELD, How, tracks};
 use super::{Row, Tracks};
 use crate::error::InputErrors;
 use crate::model_file::Model;
@@ -28,7 +28,8 @@ std      = { pv = 1 }
 
 fn read(text: &str, size: usize, held: usize) -> Result<Tracks, InputErrors> {
     let model = Model::parse(MODEL, "model").unwrap();
-    tracks(Chunks::new("data", &mut text.as_bytes(), size), "data", &model, true, held)
+    let how = How { held, ..How::default() };
+    tracks(Chunks::new("data", &mut text.as_bytes(), size), "data", &model.scheme(), how)
 }
 
 /// All that is known of a table.
@@ -119,6 +120,7 @@ fn a_character_that_is_no_text_is_told_by_its_line() {
     let mut text = b"time,px\n".to_vec();
     (0..50).for_each(|k| text.extend(format!("{k},1\n").bytes()));
     text.extend(b"50,\xff1\n51,1\n");
-    let told = tracks(Chunks::new("data", &mut &text[..], 16), "data", &model, true, HELD).unwrap_err();
+    let told =
+        tracks(Chunks::new("data", &mut &text[..], 16), "data", &model.scheme(), How::default()).unwrap_err();
     assert!(told.to_string().starts_with("data:52:4: this is not UTF-8 text"), "{told}");
 }

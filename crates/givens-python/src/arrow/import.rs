@@ -121,7 +121,7 @@ fn gather<V>(arrays: &[ArrayRef], read: impl Fn(&dyn Array) -> Vec<V>) -> Vec<V>
 
 /// Takes the stream out of a capsule, which is left empty.
 #[allow(unsafe_code)]
-fn taken(capsule: &Bound<'_, PyAny>) -> Result<FFI_ArrowArrayStream> {
+pub fn taken(capsule: &Bound<'_, PyAny>) -> Result<FFI_ArrowArrayStream> {
     let found = capsule.cast::<PyCapsule>().ok();
     let Some(pointer) = found.and_then(|capsule| capsule.pointer_checked(Some(STREAM)).ok()) else {
         return Err(Input::plain("`__arrow_c_stream__` gives no capsule with a stream").into());

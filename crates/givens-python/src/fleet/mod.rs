@@ -1,0 +1,6 @@
+//! Tables of many tracks: read, run and written without an array of NumPy between.
+
+mod portion;
+mod table;
+
+pub use table::TrackTable;

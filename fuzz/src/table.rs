@@ -108,7 +108,7 @@ fn follow(model: &Model, tracks: &Tracks, text: &str) {
     let written = |format| {
         let mut out = Vec::new();
         let (layout, threads) = (Layout::Covariances, NonZeroUsize::new(1));
-        let writer = AnswerWriter { format, layout, model, tracks, smoothed: false, gated: false, threads };
+        let writer = AnswerWriter { format, layout, tracks, smoothed: false, gated: false, threads };
         // dates may be beyond what nanoseconds count
         let done = writer.write(&mut out, &answers);
         assert!(done.is_ok() || format == Format::Parquet && tracks.is_dated());

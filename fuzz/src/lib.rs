@@ -6,6 +6,7 @@
 
 mod by_hand;
 mod bytes;
+mod columns;
 mod constructors;
 mod expression;
 mod method;
@@ -36,6 +37,7 @@ pub const TARGETS: &[Target] = &[
     Target { name: "expression", body: expression::body, words: expression::WORDS, longest: 300 },
     Target { name: "model_file", body: model_file::body, words: model_file::WORDS, longest: 2000 },
     Target { name: "table", body: table::body, words: table::WORDS, longest: 1000 },
+    Target { name: "columns", body: columns::body, words: &[], longest: 200 },
     Target { name: "options", body: options::body, words: options::WORDS, longest: 200 },
     Target { name: "constructors", body: constructors::body, words: &[], longest: 400 },
     Target { name: "by_hand", body: by_hand::body, words: &[], longest: 400 },

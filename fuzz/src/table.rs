@@ -59,10 +59,14 @@ const MODELS: [&str; 3] = [
     include_str!("../models/calendar.toml"),
 ];
 
-pub(crate) fn body(data: &[u8]) {
+/// The models, read once.
+pub(crate) fn models() -> &'static [Model] {
     static READ: OnceLock<Vec<Model>> = OnceLock::new();
-    let models = READ
-        .get_or_init(|| MODELS.iter().map(|text| Model::parse(text, "m.toml").expect("it is one")).collect());
+    READ.get_or_init(|| MODELS.iter().map(|text| Model::parse(text, "m.toml").expect("it is one")).collect())
+}
+
+pub(crate) fn body(data: &[u8]) {
+    let models = models();
     let (which, data) = data.split_first().unwrap_or((&0, &[]));
     let model = &models[usize::from(*which) % models.len()];
     let text = &*String::from_utf8_lossy(data);

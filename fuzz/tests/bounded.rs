@@ -61,6 +61,11 @@ fn tables() {
 }
 
 #[test]
+fn tables_in_columns() {
+    bounded("columns");
+}
+
+#[test]
 fn options() {
     bounded("options");
 }

@@ -45,3 +45,8 @@ def write_files(folder, count, files):
 def bytes_of(files):
     """Each file by its name."""
     return {file.name: file.read_bytes() for file in sorted(files)}
+
+
+def rows_of(file):
+    """How many rows a file has."""
+    return pyarrow.parquet.read_metadata(file).num_rows

@@ -12,6 +12,7 @@ mod journal;
 mod model_file;
 mod output;
 mod page;
+mod pages;
 mod partition;
 mod scheme;
 mod source;

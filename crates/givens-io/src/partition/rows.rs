@@ -6,12 +6,12 @@ use std::path::{Path, PathBuf};
 use arrow_array::RecordBatch;
 use arrow_schema::SchemaRef;
 use parquet::arrow::ProjectionMask;
-use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 
 use super::csv;
 use crate::decode::{Kind, integers, kind, texts, unsigned};
 use crate::error::InputError;
 use crate::findings::list;
+use crate::pages::{self, Pages};
 use crate::source::{unreadable, whole};
 use crate::table::{is_parquet, names_things, unreadable_parquet, whole_chunks};
 
@@ -40,8 +40,7 @@ impl Table {
         let name = path.display().to_string();
         let mut file = File::open(path).map_err(|error| whole(&name, unreadable(&error)))?;
         let (schema, of) = if is_parquet(&mut file).map_err(|error| whole(&name, unreadable(&error)))? {
-            let builder = ParquetRecordBatchReaderBuilder::try_new(file);
-            let builder = builder.map_err(|error| unreadable_parquet(&name, &error))?;
+            let builder = pages::open(file).map_err(|error| unreadable_parquet(&name, &error))?;
             whole_chunks(&name, builder.metadata())?;
             (SchemaRef::clone(builder.schema()), Of::Parquet)
         } else {
@@ -67,16 +66,14 @@ impl Table {
     pub fn batches(&self, columns: Option<&[&str]>) -> Result<Batches<'_>, InputError> {
         let file = File::open(&self.path).map_err(|error| whole(&self.name, unreadable(&error)))?;
         let Of::Csv(types) = &self.kind else {
-            let wrong = |error: parquet::errors::ParquetError| unreadable_parquet(&self.name, &error);
-            let builder = ParquetRecordBatchReaderBuilder::try_new(file).map_err(wrong)?;
+            let wrong = |error: String| unreadable_parquet(&self.name, &error);
+            let builder = pages::open(file).map_err(wrong)?;
             let wanted = |name: &str| columns.is_none_or(|columns| columns.contains(&name));
             let fields = builder.schema().fields().iter().enumerate();
             let roots = fields.filter(|(_, field)| wanted(field.name())).map(|(k, _)| k);
             let mask = ProjectionMask::roots(builder.parquet_schema(), roots.collect::<Vec<_>>());
-            let reader = builder.with_projection(mask).with_batch_size(ROWS).build().map_err(wrong)?;
-            return Ok(Box::new(
-                reader.map(|batch| batch.map_err(|error| unreadable_parquet(&self.name, &error))),
-            ));
+            let pages = Pages::of(builder.with_projection(mask).with_batch_size(ROWS)).map_err(wrong)?;
+            return Ok(Box::new(pages.map(move |batch| batch.map_err(wrong))));
         };
         Ok(Box::new(types.batches(&self.name, file, ROWS)))
     }

@@ -65,10 +65,10 @@ impl Batches {
     }
 
     /// Takes in batches of the columns that are read.
-    pub fn take(
+    pub fn take<E: Display>(
         &mut self,
         findings: &Findings,
-        batches: impl Iterator<Item = Result<RecordBatch, ArrowError>>,
+        batches: impl Iterator<Item = Result<RecordBatch, E>>,
         broken: &dyn Fn(&dyn Display) -> InputError,
     ) -> Result<(), InputError> {
         let mut before = 0;

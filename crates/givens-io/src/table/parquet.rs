@@ -5,7 +5,6 @@ use std::fs::File;
 use std::io::{Read, Seek};
 
 use parquet::arrow::ProjectionMask;
-use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 use parquet::file::metadata::{ColumnChunkMetaData, ParquetMetaData, RowGroupMetaData};
 
 use super::Tracks;
@@ -13,6 +12,7 @@ use super::batches::{Batches, line};
 use super::reading::How;
 use crate::error::{InputError, InputErrors};
 use crate::findings::Findings;
+use crate::pages::{self, Pages};
 use crate::scheme::Scheme;
 use crate::source::{Source, fingerprint, unreadable, whole};
 
@@ -33,7 +33,7 @@ pub(crate) fn is_parquet(file: &mut File) -> std::io::Result<bool> {
 pub(super) fn tracks(mut file: File, name: &str, scheme: &Scheme, how: How) -> Result<Tracks, InputErrors> {
     let fingerprint = sum(&mut file).map_err(|error| whole(name, unreadable(&error)))?;
     let wrong = |error: &dyn Display| broken(name, error);
-    let builder = ParquetRecordBatchReaderBuilder::try_new(file).map_err(|error| wrong(&error))?;
+    let builder = pages::open(file).map_err(|error| wrong(&error))?;
     whole_chunks(name, builder.metadata())?;
     let names: Vec<String> = builder.schema().fields().iter().map(|field| field.name().clone()).collect();
     let source = Source::new(name, line(&names));
@@ -42,8 +42,8 @@ pub(super) fn tracks(mut file: File, name: &str, scheme: &Scheme, how: How) -> R
         return findings.finish(None);
     };
     let mask = ProjectionMask::roots(builder.parquet_schema(), table.read.iter().copied());
-    let reader =
-        builder.with_projection(mask).with_batch_size(ROWS).build().map_err(|error| wrong(&error))?;
+    let builder = builder.with_projection(mask).with_batch_size(ROWS);
+    let reader = Pages::of(builder).map_err(|error| wrong(&error))?;
     table.take(&findings, reader, &wrong)?;
     table.reading.end(findings, fingerprint)
 }

@@ -9,10 +9,7 @@ use core::ops::Range;
 use givens::batch::{Batch, Track};
 use givens::registry::Choice;
 use givens::{Data, DataError, Goal, Outcome};
-use givens_io::{Beginning, Dynamics};
-
-/// Rows and tracks that a portion has at least.
-const LEAST: (usize, usize) = (1 << 17, 256);
+use givens_io::{Beginning, Dynamics, PORTION};
 
 /// Tracks that are run together, for one goal.
 pub struct Portion {
@@ -41,7 +38,7 @@ pub fn portions(plan: &Plan, goals: &[Goal]) -> Vec<Portion> {
 
 impl Portion {
     fn full(&self) -> bool {
-        self.rows >= LEAST.0 && self.tracks.len() >= LEAST.1
+        self.rows >= PORTION.0 && self.tracks.len() >= PORTION.1
     }
 
     /// What comes of those of its tracks that begin.

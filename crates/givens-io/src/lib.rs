@@ -26,7 +26,7 @@ pub use model_file::{
 };
 pub use output::{
     Answer, AnswerWriter, Answers, Destination, DestinationError, Drawn, FailedTrack, Format, Layout,
-    LentAnswers, Part, Written, make_folder, read_back, write_measurements, write_states,
+    LentAnswers, PORTION, Part, Written, make_folder, read_back, write_measurements, write_states,
 };
 pub use page::{Page, Tone};
 pub use partition::{Partition, Partitioned};

@@ -12,7 +12,7 @@ use core::sync::atomic::{AtomicUsize, Ordering};
 use givens::scalar::Shown;
 use givens_io::{Format, list_files, make_folder};
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 use std::thread::{available_parallelism, scope};
@@ -26,7 +26,8 @@ const NAMED: usize = 20;
 struct Come {
     tracks: usize,
     rows: usize,
-    log_likelihood: f64,
+    /// Of each file, by its name: their sum does not depend on which was done first.
+    log_likelihoods: BTreeMap<String, f64>,
     failures: Vec<String>,
     failed: usize,
     /// Files that were not read, in words.
@@ -106,7 +107,7 @@ pub fn run(
         count(come.rows, "row"),
         count(come.tracks, "track"),
         count(files.len() - come.refused.len(), "file"),
-        Shown(come.log_likelihood),
+        Shown(come.log_likelihoods.values().sum()),
     ));
     if come.refused.is_empty() {
         kept.into_iter().for_each(Checkpoint::remove);
@@ -178,7 +179,7 @@ impl Come {
     fn add(&mut self, file: File) {
         self.tracks += file.tracks;
         self.rows += file.rows;
-        self.log_likelihood += file.log_likelihood;
+        self.log_likelihoods.insert(file.name, file.log_likelihood);
         self.failed += file.failures.len();
         let room = NAMED.saturating_sub(self.failures.len());
         self.failures.extend(file.failures.into_iter().take(room));

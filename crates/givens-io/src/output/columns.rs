@@ -18,9 +18,14 @@ use parquet::file::properties::WriterProperties;
 use super::{AnswerWriter, Layout, Line};
 use crate::table::Calendar;
 
-/// Answers on their way into a Parquet file: each portion becomes a row group of its own.
+/// Rows of a group, at least.
+const GROUP: usize = 1 << 17;
+
+/// Answers on their way into a Parquet file, in groups of whole portions.
 pub(super) struct Columns {
     schema: SchemaRef,
+    /// Rows of the group that is open.
+    open: usize,
     file: ArrowWriter<Vec<u8>>,
 }
 
@@ -33,10 +38,10 @@ impl Columns {
         let properties = properties.set_max_row_group_row_count(None).build();
         let mut file = ArrowWriter::try_new(Vec::new(), Arc::clone(&schema), Some(properties))?;
         hand_on(&mut file, out)?;
-        Ok(Self { schema, file })
+        Ok(Self { schema, open: 0, file })
     }
 
-    /// Adds lines as a row group.
+    /// Adds lines.
     pub fn rows(&mut self, of: &AnswerWriter, out: &mut dyn Write, lines: &[Line]) -> io::Result<()> {
         if lines.is_empty() {
             return Ok(());
@@ -44,7 +49,11 @@ impl Columns {
         let arrays = arrays(of, lines).map_err(io::Error::other)?;
         let batch = RecordBatch::try_new(Arc::clone(&self.schema), arrays).map_err(io::Error::other)?;
         self.file.write(&batch)?;
-        self.file.flush()?;
+        self.open += batch.num_rows();
+        if self.open >= GROUP {
+            self.file.flush()?;
+            self.open = 0;
+        }
         hand_on(&mut self.file, out)
     }
 

@@ -6,7 +6,7 @@ use givens::explain::Told;
 use givens::filter::Fault;
 use givens::registry::Choice;
 use givens::{Data, DataError, Estimates, Goal, Outcome};
-use givens_io::{Answer, Beginning, FailedTrack, Track, Tracks};
+use givens_io::{Answer, Beginning, FailedTrack, PORTION, Track, Tracks};
 use pyo3::prelude::*;
 
 use crate::crowd::each;
@@ -16,9 +16,6 @@ use crate::model::Model;
 use crate::packs::{self, alike};
 use crate::run::Job;
 use crate::watch::{detached, signals};
-
-/// Rows and tracks that a portion has at least, as those of the command: the groups of its files are the same.
-const LEAST: (usize, usize) = (1 << 17, 256);
 
 /// Where each track begins, or why it does not.
 pub type Beginnings = Vec<core::result::Result<Beginning, String>>;
@@ -42,7 +39,7 @@ pub struct Come {
 pub fn portions(tracks: &Tracks) -> Vec<Range<usize>> {
     let (mut portions, mut rows): (Vec<Range<usize>>, usize) = (Vec::new(), 0);
     for (i, track) in tracks.tracks.iter().enumerate() {
-        let open = portions.last_mut().filter(|last| rows < LEAST.0 || last.len() < LEAST.1);
+        let open = portions.last_mut().filter(|last| rows < PORTION.0 || last.len() < PORTION.1);
         if let Some(last) = open {
             last.end = i + 1;
         } else {

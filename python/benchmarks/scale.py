@@ -1,4 +1,4 @@
-"""What a fleet costs on each engine: tracks a second, the engine's own start, memory. Writes the table of docs/scale.md.
+"""What a fleet costs on each engine: tracks a second, the start, memory. Writes the table of docs/scale.md.
 
 python python/benchmarks/scale.py --copies 400 --files 16 --command target/release/givens
 """
@@ -16,6 +16,7 @@ import time
 from collections.abc import Callable, Iterator
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
+from functools import partial
 from multiprocessing import get_context
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -90,7 +91,7 @@ def measured(engine: Callable[..., Any], run: Any, files: list[Path]) -> Cost:
 
 @contextmanager
 def alone(threads: int) -> Iterator[Any]:
-    """This process."""
+    """Within the process itself."""
 
     def over(run: Any, files: Any) -> Any:
         if not isinstance(files, int):
@@ -147,6 +148,12 @@ def ray(workers: int) -> Iterator[Any]:
     ray.shutdown()
 
 
+@contextmanager
+def command(words: list[Any]) -> Iterator[Any]:
+    """The command over the folder of the files."""
+    yield lambda _, files: isinstance(files, int) or subprocess.run(words, check=True, capture_output=True)
+
+
 def main() -> None:
     """Measures and prints."""
     options = argparse.ArgumentParser(description=__doc__)
@@ -195,18 +202,9 @@ def main() -> None:
         for threads in (1, 2) if asked.command else ():
             words = [asked.command, "smooth", fleet.FOLDER / "fleet.toml", place / "data", "-o", place / "command"]
 
-            @contextmanager
-            def command(words: Any = [*words, "--threads", str(threads)]) -> Iterator[Any]:
-                yield (
-                    lambda _, files: (
-                        None if isinstance(files, int) else subprocess.run(words, check=True, capture_output=True)
-                    )
-                )
-
-            line(
-                f"the command, {threads} thread{'s'[: threads - 1]}",
-                [measured(command, None, files) for _ in range(asked.repeat)],
-            )
+            own = partial(command, [*words, "--threads", str(threads)])
+            costs = [measured(own, None, files) for _ in range(asked.repeat)]
+            line(f"the command, {threads} thread{'s'[: threads - 1]}", costs)
 
 
 if __name__ == "__main__":

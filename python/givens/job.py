@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import json
 import os
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping
@@ -17,7 +18,7 @@ from givens._join import Joined, join
 from givens._lazy import wanted
 from givens._method import choose
 from givens._plan import Goal, read_prior, with_parameters
-from givens._scalars import mapping, shown, threads_of, whole
+from givens._scalars import mapping, shown, text, threads_of, whole
 from givens.errors import GivensError, InputError
 from givens.gaussian import Gaussian
 from givens.model_file import ModelFile
@@ -55,7 +56,13 @@ class Summary:
     seconds: float = 0.0
     files: int = 0
 
+    def __radd__(self, other: object) -> Summary:
+        # `sum` begins with 0
+        return self if other == 0 else NotImplemented
+
     def __add__(self, other: Summary) -> Summary:
+        if not isinstance(other, Summary):
+            return NotImplemented
         return Summary(
             self.tracks + other.tracks,
             self.rows + other.rows,
@@ -123,6 +130,9 @@ class BatchJob:
     >>> job(pa.table({"track_id": [7, 7, 8], "time": [0.0, 1.0, 0.0], "z": [1.0, 2.0, 5.0]})).column_names
     ['time', 'track_id', 'x', 'x_std', 'nis', 'nis_dof', 'log_likelihood', 'error']
     """
+
+    #: Some engines ask what they call for its name.
+    __name__ = "batch_job"
 
     def __init__(
         self,
@@ -224,7 +234,8 @@ class BatchJob:
         format : str, optional
             ``"parquet"``, ``"csv"`` or ``"jsonl"``; by default that of each file.
         resume : bool
-            Whether files whose answers are there are left out; their summaries count nothing.
+            Whether a file whose answers are there, by the same job from the same rows, is left out: its summary is the
+            one of then, which is kept in ``answers/_summaries``.
         """
         return FileJob(self, folder, format, resume)
 
@@ -248,11 +259,26 @@ class BatchJob:
         values = joined.native.parameters.tolist()
         return hashlib.sha256(repr((joined.states, joined.measures, said, values)).encode()).hexdigest()[:16]
 
+    def _identity(self) -> str:
+        """Tells the job from others."""
+        prior: Any = self._prior
+        if isinstance(prior, Gaussian):
+            prior = (prior.mean.tolist(), prior.cov.tolist())
+        elif callable(prior):
+            prior = f"{prior.__module__}.{getattr(prior, '__qualname__', type(prior).__qualname__)}"
+        model = self._model
+        if isinstance(model, ModelFile):
+            of: Any = (model._text, sorted(model.parameters.items()))
+        else:
+            of = (self._fingerprint(), repr(self._model), repr(self._sensors))
+        how = (self.goal, self._lag, self._method, sorted(self._options.items()), self.output, self._t0)
+        return hashlib.sha256(repr((_native.VERSION, of, prior, how)).encode()).hexdigest()
+
     def _read(self, table: Any) -> _native.TrackTable:
         native, names = self._ready()[0].native, self._names()
         if isinstance(table, (str, os.PathLike)):
-            return _native.TrackTable.read(native, os.fspath(table), names)
-        if not hasattr(table, "__arrow_c_stream__") and hasattr(table, "__arrow_c_array__"):
+            return _native.TrackTable.read(native, _path("table", table), names)
+        if not hasattr(table, "__arrow_c_stream__") and hasattr(table, "to_struct_array"):
             table = wanted("pyarrow").Table.from_batches([table])
         if not hasattr(table, "__arrow_c_stream__"):
             raise InputError(
@@ -290,7 +316,9 @@ class BatchJob:
                 means[k], covs[k] = read_prior(self._model, self._prior(*table.track(k)), joined.states)
             except Exception as error:
                 # what is wrong with one track must not end the task of all
-                said = error.message if isinstance(error, GivensError) else f"{type(error).__name__}: {error}"
+                said = f"{type(error).__name__}: {error}"
+                if isinstance(error, GivensError):
+                    said = f"{error.message}; {error.remedy}" if error.remedy else error.message
                 unbegun.append((k, f"its prior: {said}"))
         return (means, covs), unbegun
 
@@ -306,8 +334,12 @@ class FileJob:
     """A job over files: ``file_job(path)`` writes the answers of a file into a folder and gives its `Summary`.
 
     The file is written whole or not at all, and is byte for byte the one that ``givens filter FOLDER -o ANSWERS``
-    writes with a model from a file. Tracks that failed have their finished rows in it, and stand in `Summary.failed`.
+    writes with a model from a file. Tracks that failed have their finished rows in it, and stand in `Summary.failed`;
+    the summary is kept in ``_summaries`` beside the answers.
     """
+
+    #: Some engines ask what they call for its name.
+    __name__ = "file_job"
 
     def __init__(self, job: BatchJob, folder: str | os.PathLike[str], format: str | None, resume: bool) -> None:
         if format is not None and format not in _FORMATS:
@@ -318,16 +350,18 @@ class FileJob:
             raise InputError(
                 f"`output` is {job.output!r}, which is for Parquet", argument="format", remedy='write format="parquet"'
             )
-        self.job, self.folder, self.format, self.resume = job, Path(folder), format, resume
+        self.job, self.folder, self.format, self.resume = job, Path(_path("folder", folder)), format, resume
 
     def path(self, file: str | os.PathLike[str]) -> Path:
-        """Where the answers of a file go."""
-        name = Path(file).name
+        """Where the answers of a file go: its own name, with the ending of the format."""
+        name = Path(_path("file", file)).name
         if not name:
             raise InputError(f"`file` is {shown(file)}", argument="file", remedy="give the path of a file")
-        if self.format is None:
+        stem, _, ending = name.rpartition(".")
+        known = ending in _FORMATS and stem
+        if known and self.format in (None, ending):
             return self.folder / name
-        return (self.folder / name).with_suffix(f".{self.format}")
+        return self.folder / f"{stem if known else name}.{self.format or 'parquet'}"
 
     def __call__(self, file: str | os.PathLike[str]) -> Summary:
         """Writes the answers of a file.
@@ -335,30 +369,66 @@ class FileJob:
         Raises
         ------
         InputError
-            For a file that cannot be read, or has not the columns of the model.
+            For a file that cannot be read, has not the columns of the model, or whose answers would stand in the place
+            of others.
         OSError
             Where the answers cannot be written.
         """
-        path = self.path(file)
-        if self.resume and path.exists():
-            return Summary()
-        self.folder.mkdir(parents=True, exist_ok=True)
-        if path.exists() and path.samefile(file):
+        path, own = self.path(file), self._own(file)
+        if path.exists() and os.path.exists(file) and path.samefile(file):
             raise InputError(
                 f"`folder` is that of the data: {path} would be overwritten", argument="folder", remedy="name another"
             )
+        kept = self.folder / "_summaries" / f"{path.name}.json"
+        before = _kept(kept)
+        if before is not None and path.exists() and before["file"] != own["file"]:
+            raise InputError(
+                f"{path} holds the answers of {before['file']}",
+                argument="file",
+                remedy="give the files different names, or name another folder",
+            )
+        written = path.stat().st_size if path.exists() else None
+        if self.resume and before is not None and before == {**before, **own, "written": written}:
+            failed = tuple(FailedTrack(*track) for track in before["failed"])
+            tracks, rows, log_likelihood, seconds = before["sums"]
+            return Summary(tracks, rows, log_likelihood, failed, seconds, 1)
+        kept.parent.mkdir(parents=True, exist_ok=True)
         _, summary = self.job._answers(self.job._read(file), str(path))
-        return Summary(
-            summary.tracks,
-            summary.rows,
-            summary.log_likelihood,
-            tuple(track._replace(file=os.fspath(file)) for track in summary.failed),
-            summary.seconds,
-            1,
-        )
+        failed = tuple(track._replace(file=os.fspath(file)) for track in summary.failed)
+        summary = Summary(summary.tracks, summary.rows, summary.log_likelihood, failed, summary.seconds, 1)
+        sums = [summary.tracks, summary.rows, summary.log_likelihood, summary.seconds]
+        said = {**own, "written": path.stat().st_size, "sums": sums, "failed": failed}
+        partial = kept.with_name(f"{kept.name}.{os.getpid()}.partial")
+        partial.write_text(json.dumps(said))
+        partial.replace(kept)
+        return summary
+
+    def _own(self, file: str | os.PathLike[str]) -> dict[str, Any]:
+        """Tells the rows and the job from others."""
+        name = os.path.abspath(file)
+        about = os.stat(file) if os.path.exists(file) else None
+        state = None if about is None else [about.st_size, about.st_mtime_ns]
+        return {"file": name, "state": state, "job": self.job._identity()}
 
     def __repr__(self) -> str:
         return f"FileJob({self.job!r}, {str(self.folder)!r})"
+
+
+def _path(argument: str, path: Any) -> str:
+    """A path as text."""
+    if not isinstance(path, (str, os.PathLike)) or not isinstance(os.fspath(path), str):
+        raise InputError(f"`{argument}` is {shown(path)}, not a path", argument=argument, remedy="give a path as text")
+    return text(argument, os.fspath(path), "a path", "give a path as text", "give the file a name that is UTF-8")
+
+
+def _kept(path: Path) -> dict[str, Any] | None:
+    """What was written about answers before; None where it cannot be read."""
+    try:
+        found = json.loads(path.read_text())
+    except (OSError, ValueError):
+        return None
+    whole = isinstance(found, dict) and {"file", "state", "job", "written", "sums", "failed"} <= set(found)
+    return found if whole else None
 
 
 def split_errors(table: Any) -> tuple[Any, Any]:
@@ -375,6 +445,12 @@ def split_errors(table: Any) -> tuple[Any, Any]:
         The answers without the column ``error``; and ``track_id``, if there is one, ``time``, ``reason``, ``error``.
     """
     compute = wanted("pyarrow.compute")
+    if "error" not in getattr(table, "column_names", ()):
+        raise InputError(
+            "the table has no column `error`",
+            argument="table",
+            remedy="give what a job gives, as a pyarrow.Table; a file has none, and its failures stand in its Summary",
+        )
     wrong = compute.is_valid(table["error"])
     answers = table.filter(compute.invert(wrong)).drop_columns(["error"])
     failed = table.filter(wrong)
@@ -403,11 +479,15 @@ def _start(t0: Any) -> float | None:
 
 
 def _refuse_names(states: Iterable[str], output: str) -> None:
-    taken = {"time", "track_id", "sensor", "nis", "nis_dof", "log_likelihood", "gated", "error"}
+    taken = ["time", "track_id", "sensor", "nis", "nis_dof", "log_likelihood", "gated", "error"]
     if output == "tidy":
         return
-    for name in states:
-        if name in taken or (output == "covariances" and name == "cov"):
+    if output == "covariances":
+        taken.append("cov")
+    names = list(states)
+    count = Counter([*taken, *names, *(f"{name}_std" for name in names)])
+    for name in names:
+        if count[name] > 1:
             raise InputError(
                 f"the state `{name}` and a column of the answers would be one",
                 argument="output",

@@ -14,10 +14,10 @@ from givens._join import join
 from givens._lazy import wanted
 from givens._method import choose
 from givens._names import known_name
-from givens._plan import with_parameters
+from givens._plan import read_prior, with_parameters
 from givens._scalars import MOST_RUNS, mapping, seed_of, shown, threads_of, whole
 from givens.batch import Batch
-from givens.errors import InputError
+from givens.errors import GivensError, InputError, StepError
 from givens.gaussian import Gaussian
 from givens.running import filter, smooth
 from givens.simulation import simulate
@@ -43,6 +43,9 @@ class Study:
     seed : int
     """
 
+    #: Some engines ask what they call for its name.
+    __name__ = "study"
+
     def __init__(
         self,
         model: Any,
@@ -62,21 +65,25 @@ class Study:
     ) -> None:
         if goal not in ("filter", "smooth"):
             raise InputError(f"`goal` is {shown(goal)}", argument="goal", remedy="one of 'filter', 'smooth'")
-        if isinstance(methods, str) or not list(methods) or not all(isinstance(name, str) for name in methods):
+        named = isinstance(methods, Sequence) and not isinstance(methods, str) and len(methods) > 0
+        if not named or not all(isinstance(name, str) for name in methods) or len(set(methods)) < len(methods):
             raise InputError(
-                f"`methods` is {shown(methods)}", argument="methods", remedy='write methods=["ekf", "sr-ckf"]'
+                f"`methods` is {shown(methods)}",
+                argument="methods",
+                remedy='write methods=["ekf", "sr-ckf"], each once',
             )
         self._model, self._sensors = with_parameters(model, sensors, mapping("params", params, "params={name: value}"))
-        self._t, self._prior, self._goal = np.asarray(t), prior, goal
+        self._t, self._prior, self._goal = np.array(t), prior, goal
         own_options = mapping("options", options, 'options={"sr-ukf": {"kappa": 0}}')
         for name in own_options:
             known_name("options", name, tuple(methods), "method among `methods`")
         self._options = {name: dict(mapping("options", own, "options={…}")) for name, own in own_options.items()}
-        self._common, self._substeps = dict(common), substeps
+        self._common, self._substeps = dict(common), whole("substeps", substeps, 1)
         self.methods, self.runs, self.seed = tuple(methods), whole("runs", runs, 1, MOST_RUNS), seed_of(seed)
         self._asked, self._came = threads_of(threads), False
         joined = join(self._model, self._sensors)
         self.state = joined.states
+        read_prior(self._model, prior, joined.states)
         for name in self.methods:
             beside = {key: value for key, value in self._common.items() if key not in ("u", "t0")}
             choose(self._model, joined, name, {**beside, **self._options.get(name, {})})
@@ -124,7 +131,9 @@ class Study:
         found: dict[str, list[Any]] = {name: [] for name, _ in self._columns()}
         for first, count in _stretches(self._numbers(runs)):
             for start in range(first, first + count, _TOGETHER):
-                self._some(start, min(_TOGETHER, first + count - start), found)
+                for row in self._some(start, min(_TOGETHER, first + count - start)):
+                    for name, column in found.items():
+                        column.append(row[name])
         kinds = {int: arrow.int64(), float: arrow.float64(), str: arrow.string()}
         schema = arrow.schema([(name, kinds[kind]) for name, kind in self._columns()])
         return arrow.table(found, schema=schema)
@@ -137,6 +146,8 @@ class Study:
     def _numbers(self, runs: Any) -> list[int]:
         if runs is None:
             runs = range(self.runs)
+        if hasattr(runs, "columns") and hasattr(runs, "__arrow_c_stream__"):
+            runs = wanted("pyarrow").table(runs)
         names = getattr(runs, "column_names", None)
         if names is not None:
             column = next((name for name in ("run", "id") if name in names), None)
@@ -151,8 +162,22 @@ class Study:
             raise InputError(f"`runs` is {shown(runs)}", argument="runs", remedy="give their numbers: range(100)")
         return [whole("runs", run, 0, self.runs - 1) for run in runs]
 
-    def _some(self, first: int, count: int, found: dict[str, list[Any]]) -> None:
-        """Runs that follow each other."""
+    def _some(self, first: int, count: int) -> list[dict[str, Any]]:
+        """The rows of runs that follow each other. What is raised in one is told there, and costs no other."""
+        try:
+            return self._together(first, count)
+        except InputError:
+            raise
+        except Exception as error:
+            if count > 1:
+                half = count // 2
+                return [*self._some(first, half), *self._some(first + half, count - half)]
+            said = error.message if isinstance(error, GivensError) else f"{type(error).__name__}: {error}"
+            nothing = {name: None for name, _ in self._columns()}
+            said = f"simulation: {said}" if isinstance(error, GivensError) else f"raised: {said}"
+            return [{**nothing, "run": first, "method": name, "rows": 0, "error": said} for name in self.methods]
+
+    def _together(self, first: int, count: int) -> list[dict[str, Any]]:
         place = {name: self._common[name] for name in ("u", "t0") if name in self._common}
         drawn = simulate(
             self._model,
@@ -166,26 +191,17 @@ class Study:
             threads=self.threads,
             **place,
         )
-        rows: dict[int, list[dict[str, Any]]] = {k: [] for k in range(count)}
+        batches: list[Any] = []
         for name in self.methods:
             run = filter if self._goal == "filter" else smooth
             own = {**self._common, **self._options.get(name, {})}
-            batch: Any = run(
-                self._model,
-                self._sensors,
-                drawn.t,
-                drawn.z,
-                prior=self._prior,
-                method=name,
-                threads=self.threads,
-                **own,
-            )
-            for k in range(count):
-                rows[k].append({"run": first + k, "method": name, **self._scores(batch, k, drawn.x[k])})
-        for k in range(count):
-            for row in rows[k]:
-                for column in found:
-                    found[column].append(row[column])
+            own = {"prior": self._prior, "method": name, "threads": self.threads, **own}
+            batches.append(run(self._model, self._sensors, drawn.t, drawn.z, **own))
+        return [
+            {"run": first + k, "method": name, **self._scores(batch, k, drawn.x[k])}
+            for k in range(count)
+            for name, batch in zip(self.methods, batches, strict=True)
+        ]
 
     def _scores(self, batch: Batch, k: int, truth: Array) -> dict[str, Any]:
         one = batch[k]
@@ -199,7 +215,7 @@ class Study:
             "nees": nees,
             "nis": float(spread.ratio) if made else None,
             "log_likelihood": float(one.total_log_likelihood),
-            "error": None if one.failed is None else f"{one.failed.fault}: {one.failed.message}",
+            "error": None if one.failed is None else _said(one.failed, k),
         }
 
     @staticmethod
@@ -212,15 +228,22 @@ class Study:
             What calls have given, in any order. Runs that failed count in ``failed`` alone.
         """
         arrow = wanted("pyarrow")
+        if isinstance(tables, (list, tuple)) and not tables:
+            raise InputError("`tables` is empty", argument="tables", remedy="give what calls of a study have given")
         table = arrow.concat_tables(tables) if isinstance(tables, (list, tuple)) else tables
         # sums do not depend on how the runs were cut
-        table = table.sort_by([("run", "ascending")])
+        if "run" not in getattr(table, "column_names", ()):
+            raise InputError("this is no table of a study", argument="tables", remedy="give what its calls have given")
+        table = table.sort_by([("run", "ascending"), ("method", "ascending")])
         found: dict[str, dict[str, Any]] = {}
         methods = np.array(table["method"].to_pylist(), dtype=object)
         wrong = np.array(table["error"].is_valid())
         numbers = [name for name in table.column_names if name not in ("run", "method", "rows", "error")]
+        runs = table["run"].to_numpy()
         for method in dict.fromkeys(methods):
             of = methods == method
+            # a part that was done twice counts once
+            of[np.flatnonzero(of)[1:]] = np.diff(runs[of]) > 0
             one: dict[str, Any] = {"runs": int(of.sum()), "failed": int((of & wrong).sum())}
             for name in numbers:
                 values = table[name].to_numpy()[of & ~wrong].astype(float)
@@ -304,6 +327,12 @@ def study(
         substeps=substeps,
         **common,
     )
+
+
+def _said(failed: StepError, track: int) -> str:
+    """A failure, without its place among the runs that were computed together."""
+    words = failed.message.removeprefix(f"track {track}, ")
+    return f"{failed.fault}: {words}" + (f"; {failed.remedy}" if failed.remedy else "")
 
 
 def _stretches(numbers: Sequence[int]) -> list[tuple[int, int]]:

@@ -252,6 +252,9 @@ def test_names_that_would_be_two_columns_are_refused():
     sensor = gv.Sensor(own, measures=["z"], std=[1.0])
     with pytest.raises(gv.InputError, match="`error`"):
         model.batch_job(sensor, prior=gv.Gaussian([0], std=[1]))
+    twice = gv.Transition(still, noise_cov=np.eye(2), state=["x", "x_std"])
+    with pytest.raises(gv.InputError, match="`x_std`"):
+        twice.batch_job(gv.Sensor(lambda t, x: x[:1], measures=["z"], std=[1.0]), prior=gv.Gaussian([0, 1], std=[1, 1]))
     model.batch_job(sensor, prior=gv.Gaussian([0], std=[1]), output="tidy")(pa.table({"time": [0.0], "z": [0.0]}))
 
 
@@ -272,7 +275,7 @@ def test_files_are_written_as_the_command_writes_them(tmp_path):
     summaries = [job.into(tmp_path / "answers")(file) for file in files]
     arguments = [model.native.file, tmp_path / "data", "-o", tmp_path / "command", "--layout", "covariances"]
     subprocess.run([command, "smooth", *arguments], check=True, capture_output=True)
-    written = fleet.bytes_of((tmp_path / "answers").iterdir())
+    written = fleet.bytes_of((tmp_path / "answers").glob("*.parquet"))
     assert written == fleet.bytes_of((tmp_path / "command").iterdir())
     assert set(written) == {file.name for file in files}
     # the same table in memory
@@ -294,7 +297,7 @@ def test_files_that_are_done_are_left_out(tmp_path, job):
     first = run(data / "0.parquet")
     before = (tmp_path / "answers/0.parquet").stat().st_mtime_ns
     again, other = run(data / "0.parquet"), run(data / "1.parquet")
-    assert (first.files, again.files, other.files) == (1, 0, 1)
+    assert again == first and (first.rows, other.rows) == (12, 12)
     assert (tmp_path / "answers/0.parquet").stat().st_mtime_ns == before
     with pytest.raises(gv.InputError, match="overwritten"):
         job.into(data)(data / "0.parquet")
@@ -305,7 +308,38 @@ def test_files_that_are_done_are_left_out(tmp_path, job):
         job.into(tmp_path, format="csv")
     with pytest.raises(gv.InputError, match="no such file"):
         job.into(tmp_path / "answers")(data / "9.parquet")
-    assert sorted(file.name for file in (tmp_path / "answers").iterdir()) == ["0.parquet", "1.parquet"]
+    assert sorted(file.name for file in (tmp_path / "answers").iterdir()) == ["0.parquet", "1.parquet", "_summaries"]
+    with pytest.raises(gv.InputError, match="overwritten"):
+        job.into(data, resume=True)(data / "0.parquet")
+
+
+def test_what_was_done_counts_only_for_the_same_job_and_rows(tmp_path):
+    model, sensor, prior = walk()
+    wrong = table().to_pylist()
+    wrong[1]["z"] = float("inf")
+    pyarrow.parquet.write_table(pa.Table.from_pylist(wrong), tmp_path / "a.parquet")
+    run = model.batch_job(sensor, prior=prior).into(tmp_path / "answers", resume=True)
+    first = run(tmp_path / "a.parquet")
+    assert len(first.failed) == 1 and run(tmp_path / "a.parquet") == first
+    # another job
+    other = model.batch_job(sensor, prior=prior, goal="smooth", output="covariances").into(tmp_path / "answers", resume=True)
+    other(tmp_path / "a.parquet")
+    assert "cov" in pyarrow.parquet.read_schema(tmp_path / "answers/a.parquet").names
+    # other rows
+    pyarrow.parquet.write_table(table(), tmp_path / "a.parquet")
+    assert other(tmp_path / "a.parquet").failed == ()
+    # another file of the same name
+    (tmp_path / "more").mkdir()
+    pyarrow.parquet.write_table(table(), tmp_path / "more/a.parquet")
+    with pytest.raises(gv.InputError, match="holds the answers of"):
+        other(tmp_path / "more/a.parquet")
+    assert run.path("day.1").name == "day.1.parquet" and run.path("b.csv").name == "b.csv"
+
+
+def test_an_empty_table_has_empty_answers(job):
+    result, summary = job.run(table().slice(0, 0))
+    assert result.num_rows == 0 and result.schema.names == job(table()).schema.names
+    assert (summary.tracks, summary.rows) == (0, 0)
 
 
 def test_nothing_is_imported_that_is_not_needed():

@@ -50,18 +50,25 @@ def test_the_summary_has_means_and_their_errors(study):
     assert summary["ekf"]["runs"] == 40 and summary["ekf"]["failed"] == 0
 
 
-def test_runs_that_fail_stand_there():
-    model = gv.Transition(lambda t, dt, x: x**3, noise_cov=[[0.0]], state=["x"])
-    sensor = gv.Sensor(lambda t, x: x, measures=["z"], std=[1.0])
-    study = gv.study(model, sensor, range(3), prior=gv.Gaussian([0], std=[1e60]), methods=["sr-ckf"], runs=3, seed=1)
-    with pytest.raises(gv.StepError):
-        # the draws themselves are not finite
-        study()
+def test_runs_that_fail_stand_there_and_cost_no_other():
+    model = gv.Transition(lambda t, dt, x: x, noise_cov=lambda t, dt: [[dt]], state=["x"])
+    sensor = gv.Sensor(lambda t, x: np.sqrt(x + 6), measures=["z"], std=[0.01])
+    study = gv.study(model, sensor, np.arange(10.0), prior=gv.Gaussian([0], std=[1]), methods=["sr-ckf"], runs=60, seed=1)
+    whole = study()
+    failed = [error for error in whole["error"].to_pylist() if error is not None]
+    assert whole.num_rows == 60 and 0 < len(failed) < 30
+    assert {error.partition(":")[0] for error in failed} <= {"simulation", "not-finite"}
+    # a failure says the same whatever runs stand beside it
+    assert pa.concat_tables([study(part) for part in study.ranges(60)]).combine_chunks().equals(whole.combine_chunks())
+    summary = gv.Study.summary(whole)["sr-ckf"]
+    assert summary["failed"] == len(failed) and summary["runs"] == 60
+    # a part that was done twice counts once
+    assert gv.Study.summary([whole, study(range(5))])["sr-ckf"] == summary
 
 
 @pytest.mark.parametrize(
     ("changes", "said"),
-    [({"methods": "ekf"}, "methods"), ({"methods": ["efk"]}, "ekf"), ({"runs": 0}, "runs"), ({"goal": "x"}, "goal"), ({"options": {"ukf": {}}}, "ukf")],
+    [({"methods": "ekf"}, "methods"), ({"methods": ["efk"]}, "ekf"), ({"runs": 0}, "runs"), ({"goal": "x"}, "goal"), ({"options": {"ukf": {}}}, "ukf"), ({"methods": ["ekf", "ekf"]}, "once"), ({"methods": 3}, "methods"), ({"prior": None}, "prior"), ({"substeps": 0}, "substeps")],
 )
 def test_what_cannot_serve_is_told_at_once(changes, said):
     model = gv.Transition(lambda t, dt, x: x, noise_cov=[[0.1]], state=["x"])

@@ -202,7 +202,7 @@ impl Reading {
 
     /// The tracks, if nothing was found wrong.
     pub fn end(self, findings: Findings, fingerprint: String) -> Result<Tracks, InputErrors> {
-        if self.rows == 0 && findings.none() {
+        if self.rows == 0 && !self.how.apart && findings.none() {
             let error = findings.source.whole("the table has a header but no rows");
             findings.push(error.with_help("each row below the header is one measurement"));
         }

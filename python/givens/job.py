@@ -19,6 +19,7 @@ from givens._lazy import wanted
 from givens._method import choose
 from givens._plan import Goal, read_prior, with_parameters
 from givens._scalars import mapping, shown, text, threads_of, whole
+from givens._sent import Sent
 from givens.errors import GivensError, InputError
 from givens.gaussian import Gaussian
 from givens.model_file import ModelFile
@@ -101,7 +102,7 @@ class _Stream:
         return self._capsule
 
 
-class BatchJob:
+class BatchJob(Sent):
     """A filter or a smoother over tables of tracks: ``job(table)`` gives the table of the answers.
 
     Jobs are made by `Sde.batch_job`, `Transition.batch_job` and `ModelFile.batch_job`. They are small and can be
@@ -131,6 +132,7 @@ class BatchJob:
     ['time', 'track_id', 'x', 'x_std', 'nis', 'nis_dof', 'log_likelihood', 'error']
     """
 
+    _word = "job"
     #: Some engines ask what they call for its name.
     __name__ = "batch_job"
 
@@ -161,7 +163,7 @@ class BatchJob:
         self._prior, self._t0, self._method, self._options = prior, _start(t0), method, dict(options)
         self.goal, self.output = goal, output
         self._lag = None if lag is None else whole("lag", lag)
-        self._asked, self._came = threads_of(threads), False
+        self._asked = threads_of(threads)
         self._made: tuple[Joined, _native.Choice] | None = None
         self._ready()
 
@@ -175,24 +177,8 @@ class BatchJob:
             self._made = joined, choice
         return self._made
 
-    @property
-    def threads(self) -> int | None:
-        """How many threads it computes on; None is all cores."""
-        return 1 if self._asked is None and self._came else self._asked
-
     def __getstate__(self) -> dict[str, Any]:
-        return {**self.__dict__, "_made": None, "_version": _native.VERSION}
-
-    def __setstate__(self, state: dict[str, Any]) -> None:
-        made_by = state.pop("_version", "another version")
-        if made_by != _native.VERSION:
-            raise InputError(
-                f"the job was made by givens {made_by}, and this is {_native.VERSION}",
-                argument="job",
-                remedy="install one version wherever the job runs",
-            )
-        self.__dict__.update(state)
-        self._came = True
+        return {**super().__getstate__(), "_made": None}
 
     def __call__(self, table: Any) -> Any:
         """The answers of a table, as a `pyarrow.Table`.

@@ -16,6 +16,7 @@ from givens._method import choose
 from givens._names import known_name
 from givens._plan import read_prior, with_parameters
 from givens._scalars import MOST_RUNS, mapping, seed_of, shown, threads_of, whole
+from givens._sent import Sent
 from givens.batch import Batch
 from givens.errors import GivensError, InputError, StepError
 from givens.gaussian import Gaussian
@@ -28,7 +29,7 @@ __all__ = ["Study", "study"]
 _TOGETHER = 256
 
 
-class Study:
+class Study(Sent):
     """Runs of a simulated experiment, each by several methods: ``study(range(100))`` gives a table of a hundred.
 
     A run is drawn from a stream of its own, keyed by the seed and its number, so that its row is the same to the bit
@@ -43,6 +44,7 @@ class Study:
     seed : int
     """
 
+    _word = "study"
     #: Some engines ask what they call for its name.
     __name__ = "study"
 
@@ -80,32 +82,13 @@ class Study:
         self._options = {name: dict(mapping("options", own, "options={…}")) for name, own in own_options.items()}
         self._common, self._substeps = dict(common), whole("substeps", substeps, 1)
         self.methods, self.runs, self.seed = tuple(methods), whole("runs", runs, 1, MOST_RUNS), seed_of(seed)
-        self._asked, self._came = threads_of(threads), False
+        self._asked = threads_of(threads)
         joined = join(self._model, self._sensors)
         self.state = joined.states
         read_prior(self._model, prior, joined.states)
         for name in self.methods:
             beside = {key: value for key, value in self._common.items() if key not in ("u", "t0")}
             choose(self._model, joined, name, {**beside, **self._options.get(name, {})})
-
-    def __getstate__(self) -> dict[str, Any]:
-        return {**self.__dict__, "_version": _native.VERSION}
-
-    def __setstate__(self, state: dict[str, Any]) -> None:
-        made_by = state.pop("_version", "another version")
-        if made_by != _native.VERSION:
-            raise InputError(
-                f"the study was made by givens {made_by}, and this is {_native.VERSION}",
-                argument="study",
-                remedy="install one version wherever it runs",
-            )
-        self.__dict__.update(state)
-        self._came = True
-
-    @property
-    def threads(self) -> int | None:
-        """How many threads it computes on; None is all cores."""
-        return 1 if self._asked is None and self._came else self._asked
 
     def ranges(self, parts: int) -> list[range]:
         """The runs in so many parts."""

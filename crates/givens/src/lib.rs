@@ -25,6 +25,7 @@ pub use givens_core::{filter, kernels, model, ode, rule, scalar, smoother};
 
 pub mod batch;
 mod data;
+mod doubt;
 mod estimates;
 pub mod explain;
 mod gate;
@@ -36,6 +37,7 @@ pub mod simulate;
 mod stream;
 
 pub use data::{Data, DataError, Row};
+pub use doubt::{Doubt, Doubtful, Doubts, Gap};
 pub use estimates::Estimates;
 pub use gate::Gated;
 pub use precision::{Computes, Single};

@@ -3,8 +3,7 @@
 
 use givens::registry::{Choice, Precision, Setting, resolve};
 use givens_tests::stress::{
-    Answered, Asks, Case, Column, Peer, Rung, Verdict, asks, case, cases, judge, named_methods, read_peers,
-    table,
+    Answered, Asks, Case, Column, Peer, Rung, Verdict, case, cases, judge, named_methods, read_peers, table,
 };
 
 fn main() {
@@ -37,7 +36,7 @@ fn verdicts(
 fn ours(case: &Case) -> Vec<Column> {
     let along = |choice: &Choice, precision| {
         let choice = Choice { precision, ..*choice };
-        verdicts(case, precision, asks(&choice), case.rungs.iter().map(|rung| rung.run(&choice, None)))
+        case.rungs.iter().map(|rung| rung.verdict(&choice)).collect()
     };
     let singles = named_methods(&case.rungs[0], Precision::F32);
     let of = |(name, choice): (String, Choice)| {
@@ -75,7 +74,9 @@ fn long() {
             let choice = resolve("sr-ckf", &settings).unwrap();
             match judge(answer, Asks::Points, &rung.run(&choice, Some(10_000_000))) {
                 Some(Verdict::Right(error)) => format!("right, to {error:.0e} σ"),
-                Some(Verdict::Wrong(error)) => format!("**wrong**, by {error:.0e} σ"),
+                Some(Verdict::Wrong(error) | Verdict::Doubted(error)) => {
+                    format!("**wrong**, by {error:.0e} σ")
+                }
                 Some(Verdict::Said(why)) => why,
                 Some(Verdict::NotANumber) => "NaN".to_owned(),
                 None => "–".to_owned(),

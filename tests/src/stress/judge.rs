@@ -1,4 +1,4 @@
-//! What an answer is worth: right, refused, not a number, or wrong and told as right.
+//! What an answer is worth: right, refused, doubted, not a number, or wrong and told as right.
 
 use super::{Answer, Moments};
 use crate::{cov_error, mean_error};
@@ -38,6 +38,8 @@ pub enum Verdict {
     Said(String),
     /// It gave numbers that are none, which a reader may or may not notice.
     NotANumber,
+    /// A wrong answer about which there is a doubt; the largest error.
+    Doubted(f64),
     /// A wrong answer told as right; the largest error.
     Wrong(f64),
 }

@@ -1,5 +1,6 @@
 //! The ladders of `golden/stress.json`: linear problems that grow harder rung by rung, with their answers in sixty digits.
 
+mod doubts;
 mod judge;
 mod methods;
 mod model;

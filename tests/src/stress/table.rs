@@ -43,6 +43,9 @@ pub fn cell(case: &Case, verdicts: &[Option<Verdict>]) -> String {
     if let Some((d, _)) = first(|verdict| *verdict == Verdict::NotANumber) {
         failures.push((*d, "NaN".to_owned()));
     }
+    if let Some((d, Verdict::Doubted(error))) = first(|verdict| matches!(verdict, Verdict::Doubted(_))) {
+        failures.push((*d, format!("doubted, and off by {error:.0e} σ")));
+    }
     if let Some((d, Verdict::Wrong(error))) = first(|verdict| matches!(verdict, Verdict::Wrong(_))) {
         failures.push((*d, format!("**wrong**, by {error:.0e} σ")));
     }

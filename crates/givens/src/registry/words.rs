@@ -69,7 +69,7 @@ words! {
 
 impl Precision {
     /// The distance from one to the next larger number.
-    pub(super) const fn epsilon(self) -> f64 {
+    pub(crate) const fn epsilon(self) -> f64 {
         match self {
             Precision::F64 => f64::EPSILON,
             Precision::F32 => f32::EPSILON as f64,

@@ -1,0 +1,178 @@
+//! What may be wrong about answers that are no errors.
+
+mod digits;
+mod gap;
+
+use crate::Estimates;
+use crate::filter::Gaussian;
+use crate::registry::Choice;
+use digits::Digits;
+pub use gap::Gap;
+
+/// Why an answer may be wrong, though each step of the filter had an answer.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum Doubt {
+    /// Steps of equal length are too long: with twice as many the prediction to the row moves by more than a thousandth of
+    /// its standard deviations.
+    Steps {
+        /// By how many standard deviations, in the mean of a state or in the covariance of a pair.
+        moved: f64,
+    },
+    /// A measurement has made the standard deviation of a state so many times smaller that what is left of it may be the
+    /// rounding of what it was.
+    Shrunk {
+        /// The state, from zero.
+        component: usize,
+    },
+    /// How well a state is known given those before it is less than the rounding of its variance: a root of it may hold
+    /// that, a covariance does not.
+    Bound {
+        /// The state, from zero.
+        component: usize,
+    },
+}
+
+impl Doubt {
+    /// Its kind.
+    fn kind(&self) -> usize {
+        match self {
+            Doubt::Steps { .. } => 0,
+            Doubt::Shrunk { .. } => 1,
+            Doubt::Bound { .. } => 2,
+        }
+    }
+}
+
+/// A doubt, and where it arose: of the steps' the worst, of the others' the first.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Doubtful {
+    /// The track, as it was counted by who asked.
+    pub track: usize,
+    /// Its row, from zero.
+    pub row: usize,
+    /// The time of the row.
+    pub time: f64,
+    /// Why.
+    pub doubt: Doubt,
+    /// How many rows are doubtful for a reason of this kind, of those that were looked at.
+    pub rows: usize,
+}
+
+/// What is doubtful about the rows of a run, or of several: a second look at answers that no step of the filter has refused.
+///
+/// Digits are looked at in every row. Steps of equal length are halved in few gaps, whatever the number of rows: at the 1st, 2nd, 4th, 8th and
+/// so on, and wherever a gap is half as long again as any before.
+///
+/// ```
+/// use givens::filter::Gaussian;
+/// use givens::model::zoo::{Radar3d, Turn3d};
+/// use givens::registry::resolve;
+/// use givens::{Data, Doubt, Doubts, Goal};
+///
+/// let mut data = Data::new(3).starting_at(0.0);
+/// data.push(60.0, &[2800.0, 1.2, 0.08])?;
+/// let prior = Gaussian::from_std(&[1000.0, 0.0, 2000.0, 100.0, 200.0, 0.0, 0.3], &[200.0, 10.0, 200.0, 10.0, 200.0, 10.0, 0.01])?;
+/// let (turn, radar, choice) = (Turn3d::default(), Radar3d::default(), resolve("sr-cd-ckf", &[])?);
+/// let outcome = choice.run_continuous(&turn, &radar, data.rows(), data.start(), &prior, Goal::Filter, &[]);
+/// let mut doubts = Doubts::new(&choice);
+/// doubts.begin(data.start(), &prior);
+/// doubts.add(0, 0, &outcome.estimates, &mut |gap| choice.halved(&turn, &radar, &[], &[], gap));
+/// // eighteen radians of a turn, in sixteen steps
+/// assert!(doubts.found().any(|found| matches!(found.doubt, Doubt::Steps { moved } if moved > 0.1)));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Doubts {
+    digits: Digits,
+    /// Whether the steps are of equal length.
+    equal: bool,
+    found: [Option<Doubtful>; 3],
+    /// Gaps so far, and the longest of those whose steps were halved.
+    gaps: (usize, f64),
+    last: Option<Gap>,
+}
+
+/// A prediction that moves by less is right.
+const MOVED: f64 = 1e-3;
+
+impl Doubts {
+    /// About answers of this method.
+    #[must_use]
+    pub fn new(choice: &Choice) -> Self {
+        Self { digits: Digits::of(choice), equal: choice.finer().is_some(), ..Self::default() }
+    }
+
+    /// A track begins, with this belief at `time`.
+    pub fn begin(&mut self, time: f64, prior: &Gaussian) {
+        self.stand(time, prior.mean(), prior.cov());
+    }
+
+    /// Looks at rows of a track, the first of which is its row `first`; those of one track follow each other. `halved` is asked how far a prediction
+    /// moves by halved steps: see [`Choice::halved`].
+    pub fn add(
+        &mut self,
+        track: usize,
+        first: usize,
+        est: &Estimates,
+        halved: &mut dyn FnMut(&Gap) -> Option<f64>,
+    ) {
+        for k in 0..est.len() {
+            let (row, time, cov) = (first + k, est.time[k], est.filtered_cov(k));
+            let at = |doubt| Doubtful { track, row, time, doubt, rows: 1 };
+            let moved = self.gap(row, time).and_then(|gap| halved(&gap));
+            if let Some(moved) = moved.filter(|moved| *moved > MOVED) {
+                self.note(at(Doubt::Steps { moved }));
+            }
+            for doubt in self.digits.lost(est.predicted_cov(k), cov) {
+                self.note(at(doubt));
+            }
+            if self.equal {
+                self.stand(time, est.filtered_mean(k), cov);
+            }
+        }
+    }
+
+    /// What was found: no more than one of each kind.
+    pub fn found(&self) -> impl Iterator<Item = &Doubtful> {
+        self.found.iter().flatten()
+    }
+
+    /// The gap to a row, if its steps are to be halved.
+    fn gap(&mut self, row: usize, to: f64) -> Option<Gap> {
+        let last = self.last.take()?;
+        let gap = Gap { row, to, ..last };
+        let (count, longest) = &mut self.gaps;
+        if gap.to <= gap.from {
+            return None;
+        }
+        *count += 1;
+        let longer = gap.length() >= 1.5 * *longest;
+        if longer {
+            *longest = gap.length();
+        }
+        (longer || count.is_power_of_two()).then_some(gap)
+    }
+
+    fn stand(&mut self, from: f64, mean: &[f64], cov: &[f64]) {
+        let (mean, cov) = (mean.to_vec(), cov.to_vec());
+        self.last = self.equal.then_some(Gap { row: 0, from, to: from, mean, cov });
+    }
+
+    fn note(&mut self, new: Doubtful) {
+        let of = &mut self.found[new.doubt.kind()];
+        let rows = of.map_or(0, |old| old.rows) + 1;
+        let worse = match (*of, new.doubt) {
+            (Some(Doubtful { doubt: Doubt::Steps { moved: old }, .. }), Doubt::Steps { moved }) => {
+                moved > old
+            }
+            (old, _) => old.is_none(),
+        };
+        match of {
+            Some(old) if !worse => old.rows = rows,
+            _ => *of = Some(Doubtful { rows, ..new }),
+        }
+    }
+}

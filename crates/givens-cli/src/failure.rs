@@ -25,12 +25,16 @@ pub fn place_of(plan: &Plan, i: usize, k: usize, time: f64) -> String {
 
 /// Why a step failed, by the names of the model; `what` was at work at `place`, by this method if it has one.
 pub fn told(model: &Model, place: &str, what: &str, choice: Option<&Choice>, error: &StepError) -> String {
+    explain(model, |explain| format!("{place}: the {what} failed: {}", explain.told(choice, &error.fault)))
+}
+
+/// Says something in the names of the model.
+pub fn explain(model: &Model, say: impl FnOnce(&Explain) -> String) -> String {
     let states: Vec<&str> = model.states.iter().map(String::as_str).collect();
     let columns = model.sensors.iter().flat_map(|sensor| &sensor.columns);
     let measures: Vec<&str> = columns.map(String::as_str).collect();
     let kind = crate::method::kind(model);
-    let explain = Explain { face: Face::Command, kind, states: &states, measures: &measures };
-    format!("{place}: the {what} failed: {}", explain.told(choice, &error.fault))
+    say(&Explain { face: Face::Command, kind, states: &states, measures: &measures })
 }
 
 /// The mean from which a step set out that failed on a number or in a solver; nothing for other faults.

@@ -1,10 +1,12 @@
 //! `--report`: a run judged by its own innovations, in words.
 
+use crate::doubts;
 use crate::figure;
 use crate::gaps;
 use crate::message::{Stop, count, digits};
 use crate::plan::Plan;
 use crate::report::Summary;
+use givens::Doubtful;
 use givens::metrics::{Consistency, InnovationSums, MeasureVerdict, Outlier, Verdict, chi_squared_cdf};
 use givens::scalar::Shown;
 use givens_io::{Page, Tone, Track};
@@ -59,6 +61,8 @@ pub fn page(
         measures(&mut page, plan, innovations);
         outliers(&mut page, plan, innovations)?;
     }
+    page.heading("Are the numbers those of the method?");
+    doubts(&mut page, plan, &summary.doubts);
     gaps::tell(&mut page, plan)?;
     if !shown.is_empty() {
         page.heading("The run");
@@ -66,6 +70,17 @@ pub fn page(
         page.figure(&String::from_utf8_lossy(&svg));
     }
     Ok(page.finish())
+}
+
+/// What of the answers may be wrong by rounding, or by steps that are too long.
+fn doubts(page: &mut Page, plan: &Plan, found: &[Doubtful]) {
+    let told = doubts::all(plan, &plan.choice, found);
+    for told in &told {
+        page.say(Tone::Look, told);
+    }
+    if told.is_empty() {
+        page.say(Tone::Good, "No digits were lost, and no step was too long, where that was looked at.");
+    }
 }
 
 /// The mean NIS in words.

@@ -5,6 +5,7 @@ mod args;
 mod checkpoint;
 mod columns;
 mod commands;
+mod doubts;
 mod failure;
 mod figure;
 mod files;

@@ -55,6 +55,11 @@ pub fn say(text: &str) {
     let _ = writeln!(io::stderr().lock(), "{text}");
 }
 
+/// A line about an answer that may be wrong.
+pub fn doubt(text: &str) {
+    say(&format!("doubt: {text}"));
+}
+
 /// `1 row`, `2 rows`.
 pub fn count(number: usize, noun: &str) -> String {
     if number == 1 { format!("1 {noun}") } else { format!("{number} {noun}s") }

@@ -1,10 +1,11 @@
 //! What stderr says at the end: how much was done, how likely it was, how right.
 
-use crate::message::{count, digits, say};
+use crate::doubts;
+use crate::message::{count, digits, doubt, say};
 use crate::plan::Plan;
-use givens::Estimates;
 use givens::metrics::{Accuracy, Consistency};
 use givens::scalar::Shown;
+use givens::{Doubtful, Estimates};
 use givens_io::Model;
 use serde::{Deserialize, Serialize};
 
@@ -14,6 +15,8 @@ pub struct Summary {
     pub log_likelihood: f64,
     pub consistency: Consistency,
     pub gated: Gated,
+    /// What is doubtful about the answers.
+    pub doubts: Vec<Doubtful>,
     /// Against a truth, if there is one.
     pub accuracy: Option<Accuracy>,
 }
@@ -85,6 +88,7 @@ pub fn closing(plan: &Plan, summary: &Summary) {
     if let Some(told) = summary.gated.told(plan, summary.rows) {
         say(&told);
     }
+    doubts::all(plan, &plan.choice, &summary.doubts).iter().for_each(|told| doubt(told));
     if let Some(accuracy) = &summary.accuracy {
         for line in accuracy_lines(&plan.model, accuracy) {
             say(&line);

@@ -66,7 +66,7 @@ impl Session {
         done: Vec<Done>,
         mut kept: Option<&mut Checkpoint>,
     ) -> Result<Self, Stop> {
-        let mut session = Self::new(plan, goals, manner);
+        let mut session = Self::new(plan, choice, goals, manner);
         shown(rows(plan), manner, |count| {
             let mut done = done.into_iter();
             for portion in portions(plan, goals) {
@@ -102,7 +102,7 @@ impl Session {
         manner: Manner,
         take: Take,
     ) -> Result<Self, Stop> {
-        let mut session = Self::new(plan, goals, manner);
+        let mut session = Self::new(plan, choice, goals, manner);
         shown(rows(plan), manner, |count| {
             for portion in portions(plan, goals) {
                 let tracks = portion.tracks.clone();
@@ -117,13 +117,13 @@ impl Session {
         Ok(session)
     }
 
-    fn new(plan: &Plan, goals: &[Goal], manner: Manner) -> Self {
+    fn new(plan: &Plan, choice: &Choice, goals: &[Goal], manner: Manner) -> Self {
         Self {
             answers: Vec::new(),
             failures: Vec::new(),
             goals: goals.to_vec(),
             at: Vec::new(),
-            sums: Sums::new(plan, manner.judged),
+            sums: Sums::new(plan, choice, manner.judged),
             took: Duration::ZERO,
         }
     }
@@ -181,7 +181,7 @@ impl Session {
             row += ran.saturating_sub(outcome.estimates.len());
         }
         let started = begin.started && row == begin.row;
-        self.sums.add(plan, i, row, goal, &outcome.estimates);
+        self.sums.add(plan, choice, (i, row), goal, &outcome.estimates);
         let estimates = kept(outcome.estimates, manner.whole);
         self.answers.push(Answer { estimates, row, started, from_first });
     }

@@ -76,7 +76,7 @@ impl<'p> Streaming<'p> {
         let (smoothed, threads) = (goal != Goal::Filter, manner.threads);
         let (tracks, gated) = (&plan.tracks, plan.choice.gate.is_some());
         let writer = AnswerWriter { format, layout, tracks, smoothed, gated, threads };
-        let come = Come { thinned, sums: Sums::new(plan, manner.judged), ..Come::default() };
+        let come = Come { thinned, sums: Sums::new(plan, &plan.choice, manner.judged), ..Come::default() };
         Ok(Self { plan, goal, manner, at: manner.at, writer, come, failure: None, stop: None })
     }
 
@@ -201,7 +201,7 @@ impl<'p> Streaming<'p> {
     fn add(&mut self, finished: &Finished) {
         let Finished { first, estimates: est, at } = *finished;
         let from = self.plan.beginnings[0].row + first;
-        let truth = self.come.sums.add(self.plan, 0, from, self.goal, est);
+        let truth = self.come.sums.add(self.plan, &self.plan.choice, (0, from), self.goal, est);
         if let Some((rows, times)) = &mut self.come.thinned {
             rows.add(est, truth.as_ref());
             for row in 0..at.len() {

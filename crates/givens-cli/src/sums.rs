@@ -1,11 +1,13 @@
 //! What the rows of a run add up to, as they are finished.
 
+use crate::doubts;
 use crate::plan::Plan;
 use crate::report::{Gated, Summary};
 use givens::metrics::{
     AccuracySums, ConsistencySums, InnovationSums, Truth, chi_squared_cdf, chi_squared_quantile,
 };
-use givens::{Estimates, Goal};
+use givens::registry::Choice;
+use givens::{Doubts, Estimates, Goal};
 use serde::{Deserialize, Serialize};
 
 /// Of all rows so far.
@@ -18,21 +20,29 @@ pub struct Sums {
     /// For a report, if one is made.
     pub innovations: Option<InnovationSums>,
     gated: Gated,
+    doubts: Doubts,
     /// Rows with a measure that was taken in.
     taken: usize,
 }
 
 impl Sums {
-    /// Of no rows; `judged` if a report is made of them.
-    pub fn new(plan: &Plan, judged: bool) -> Self {
+    /// Of no rows by this method; `judged` if a report is made of them.
+    pub fn new(plan: &Plan, choice: &Choice, judged: bool) -> Self {
         let accuracy = plan.truth.as_ref().map(|_| AccuracySums::new(plan.model.states.len()));
         let innovations = judged.then(|| InnovationSums::new(plan.model.measures()));
-        Self { accuracy, innovations, ..Self::default() }
+        Self { accuracy, innovations, doubts: Doubts::new(choice), ..Self::default() }
     }
 
     /// Adds rows of track `i`, the first of which is its row `from`. Those of one track follow each other. The truth of each, if
     /// there is one.
-    pub fn add(&mut self, plan: &Plan, i: usize, from: usize, goal: Goal, est: &Estimates) -> Option<Truth> {
+    pub fn add(
+        &mut self,
+        plan: &Plan,
+        choice: &Choice,
+        (i, from): (usize, usize),
+        goal: Goal,
+        est: &Estimates,
+    ) -> Option<Truth> {
         self.rows += est.len();
         est.log_likelihood.iter().for_each(|x| self.log_likelihood += x);
         self.consistency.add(est);
@@ -41,6 +51,7 @@ impl Sums {
             sums.add(i, from, est);
         }
         self.gated.add(i, from, est);
+        doubts::add(&mut self.doubts, plan, choice, i, from, est);
         let truth = plan.truth_at(i, goal, est.time.iter().copied());
         if let (Some(sums), Some(truth)) = (&mut self.accuracy, &truth) {
             sums.add(&est.mean, &est.cov, &truth.states);
@@ -58,6 +69,7 @@ impl Sums {
             log_likelihood: self.log_likelihood,
             consistency,
             gated: self.gated.clone(),
+            doubts: self.doubts.found().copied().collect(),
             accuracy: self.accuracy.as_ref().map(AccuracySums::accuracy),
         }
     }

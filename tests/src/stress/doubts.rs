@@ -39,7 +39,7 @@ impl Rung {
             data.push_controlled(time, z, &control(next)).unwrap();
         }
         let mut doubts = Doubts::new(choice);
-        doubts.begin(0.0, &prior);
+        doubts.begin(0, 0.0, &prior);
         if choice.kind() == Kind::Discrete {
             let outcome = choice.run(&stage, &sight, data.rows(), 0.0, &prior, Goal::Filter, &[]);
             doubts.add(0, 0, &outcome.estimates, &mut |_| None);

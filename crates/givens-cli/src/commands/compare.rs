@@ -1,8 +1,9 @@
 //! `givens compare`: several methods over the same data, a line each.
 
 use crate::args::CompareArgs;
+use crate::doubts;
 use crate::files;
-use crate::message::{Stop, count, digits, say};
+use crate::message::{Stop, count, digits, doubt, say};
 use crate::method::{Named, Typed, choose, setting};
 use crate::plan::{Plan, model};
 use crate::session::{Manner, Session};
@@ -28,11 +29,12 @@ pub fn compare(args: &CompareArgs) -> Result<(), Stop> {
     let plan = Plan::with(model, first, &args.data, args.truth.as_deref())?;
     let gated = choices.iter().any(|choice| choice.gate.is_some());
     let mut table = vec![header(&plan, gated)];
-    let mut failures = Vec::new();
+    let (mut failures, mut doubts) = (Vec::new(), Vec::new());
     for (name, choice) in args.methods.iter().zip(&choices) {
-        let (line, failed) = line(&plan, name.trim(), choice, gated, args.threads)?;
+        let (line, failed, doubtful) = line(&plan, name.trim(), choice, gated, args.threads)?;
         table.push(line);
         failures.extend(failed.into_iter().map(|failure| format!("{}: {failure}", name.trim())));
+        doubts.extend(doubtful.into_iter().map(|told| format!("{}: {told}", name.trim())));
     }
     stdout::write(|out| aligned(out, &table))?;
     let rows = plan.tracks.tracks.iter().map(|track| track.rows.len()).sum();
@@ -40,6 +42,7 @@ pub fn compare(args: &CompareArgs) -> Result<(), Stop> {
     let side_by_side = if plan.tracks.tracks.len() > 1 { ", tracks side by side" } else { "" };
     let timed = "µs/row: the filter alone, once, without reading and writing";
     say(&format!("{}; {timed}{side_by_side}{pair}", count(rows, "row")));
+    doubts.iter().for_each(|told| doubt(told));
     if failures.is_empty() { Ok(()) } else { Err(Stop::failures(&failures)) }
 }
 
@@ -106,7 +109,7 @@ fn line(
     choice: &Choice,
     gated: bool,
     threads: Option<NonZeroUsize>,
-) -> Result<(Vec<String>, Vec<String>), Stop> {
+) -> Result<(Vec<String>, Vec<String>, Vec<String>), Stop> {
     let manner = Manner { at: None, threads, whole: false, judged: false, counted: None };
     let run = |goal: Goal| {
         let goals = vec![goal; plan.tracks.tracks.len()];
@@ -137,7 +140,7 @@ fn line(
     let mut failures = filtered.failures.clone();
     if let Some(truth) = &plan.truth {
         let smoothed = run(Goal::Interval)?;
-        let (f, s) = (summary.accuracy, smoothed.sums.summary(choice.gate).accuracy);
+        let (f, s) = (summary.accuracy.clone(), smoothed.sums.summary(choice.gate).accuracy);
         if filtered.failures.is_empty() {
             failures.extend(smoothed.failures);
         }
@@ -149,7 +152,8 @@ fn line(
         }
         line.push(pair(f.map(|f| f.nees / f.nees_dof), s.map(|s| s.nees / s.nees_dof)));
     }
-    Ok((line, failures))
+    let doubts = doubts::all(plan, choice, &summary.doubts);
+    Ok((line, failures, doubts))
 }
 
 /// Columns as wide as their widest cell; the first one to the left, the others to the right.

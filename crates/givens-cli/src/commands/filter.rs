@@ -3,6 +3,7 @@
 use crate::args::{FilterArgs, FormatArg, LayoutArg, SmoothArgs};
 use crate::checkpoint::{self, Checkpoint};
 use crate::commands::folder;
+use crate::doubts;
 use crate::figure::{self, Shown};
 use crate::files::{self, Sink};
 use crate::instants::Instants;
@@ -42,6 +43,8 @@ pub struct Done {
     pub log_likelihood: f64,
     /// Tracks that failed, in words.
     pub failures: Vec<String>,
+    /// What is doubtful about the answers, in words.
+    pub doubts: Vec<String>,
 }
 
 type Goals<'a> = &'a (dyn Fn(&Plan) -> Result<Vec<Goal>, Stop> + Sync);
@@ -233,6 +236,7 @@ fn ended(plan: &Plan, manner: Manner, sums: &Sums, failures: &[String], kept: Op
         rows: summary.rows,
         log_likelihood: summary.log_likelihood,
         failures: failures.to_vec(),
+        doubts: doubts::all(plan, &plan.choice, &summary.doubts),
     }
 }
 

@@ -4,7 +4,7 @@ use crate::args::FilterArgs;
 use crate::checkpoint::{self, Checkpoint};
 use crate::commands::filter::Done;
 use crate::files::is_standard;
-use crate::message::{Stop, count, say};
+use crate::message::{Stop, count, doubt, say};
 use crate::plan;
 use crate::progress::Progress;
 use core::num::NonZeroUsize;
@@ -20,6 +20,8 @@ use std::time::Instant;
 
 /// Failures that are named; of the others the number.
 const NAMED: usize = 20;
+/// Doubts that are told.
+const DOUBTS: usize = 3;
 
 /// What came of the files so far.
 #[derive(Default)]
@@ -30,6 +32,9 @@ struct Come {
     log_likelihoods: BTreeMap<String, f64>,
     failures: Vec<String>,
     failed: usize,
+    /// What is doubtful about answers, in words, and of how many files.
+    doubts: Vec<String>,
+    doubtful: usize,
     /// Files that were not read, in words.
     refused: Vec<String>,
 }
@@ -47,6 +52,7 @@ struct File {
     rows: usize,
     log_likelihood: f64,
     failures: Vec<String>,
+    doubts: Vec<String>,
 }
 
 /// The files that `data` stands for, if it is a folder or a pattern.
@@ -109,6 +115,10 @@ pub fn run(
         count(files.len() - come.refused.len(), "file"),
         Shown(come.log_likelihoods.values().sum()),
     ));
+    come.doubts.iter().for_each(|told| doubt(told));
+    if come.doubtful > 1 {
+        doubt(&format!("{} have doubtful answers", count(come.doubtful, "file")));
+    }
     if come.refused.is_empty() {
         kept.into_iter().for_each(Checkpoint::remove);
     }
@@ -150,9 +160,9 @@ fn each(
             let mut shared = shared.lock().unwrap_or_else(PoisonError::into_inner);
             let (come, kept, stop) = &mut *shared;
             match came {
-                Ok(Done { tracks, rows, log_likelihood, failures }) => {
+                Ok(Done { tracks, rows, log_likelihood, failures, doubts }) => {
                     let (state, answers) = (*own, state(output));
-                    let file = File { name, state, answers, tracks, rows, log_likelihood, failures };
+                    let file = File { name, state, answers, tracks, rows, log_likelihood, failures, doubts };
                     if let Some(Err(error)) = kept.as_mut().map(|kept| kept.append(&file)) {
                         *stop = Some(Stop::failed(error.to_string()));
                         next.store(left.len(), Ordering::Relaxed);
@@ -183,6 +193,9 @@ impl Come {
         self.failed += file.failures.len();
         let room = NAMED.saturating_sub(self.failures.len());
         self.failures.extend(file.failures.into_iter().take(room));
+        self.doubtful += usize::from(!file.doubts.is_empty());
+        let room = DOUBTS.saturating_sub(self.doubts.len());
+        self.doubts.extend(file.doubts.into_iter().take(room));
     }
 
     fn end(mut self) -> Result<(), Stop> {

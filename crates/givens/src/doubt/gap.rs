@@ -16,13 +16,19 @@ pub struct Gap {
     pub from: f64,
     /// When it ends.
     pub to: f64,
-    pub(super) mean: Vec<f64>,
-    pub(super) cov: Vec<f64>,
+    mean: Vec<f64>,
+    cov: Vec<f64>,
 }
 
 impl Gap {
-    pub(super) fn length(&self) -> f64 {
-        self.to - self.from
+    /// One that begins with this belief.
+    pub(super) fn from(from: f64, mean: &[f64], cov: &[f64]) -> Self {
+        Self { row: 0, from, to: from, mean: mean.to_vec(), cov: cov.to_vec() }
+    }
+
+    /// The same, up to a row.
+    pub(super) fn until(self, row: usize, to: f64) -> Self {
+        Self { row, to, ..self }
     }
 }
 

@@ -77,7 +77,7 @@ pub struct Doubtful {
 /// let (turn, radar, choice) = (Turn3d::default(), Radar3d::default(), resolve("sr-cd-ckf", &[])?);
 /// let outcome = choice.run_continuous(&turn, &radar, data.rows(), data.start(), &prior, Goal::Filter, &[]);
 /// let mut doubts = Doubts::new(&choice);
-/// doubts.begin(data.start(), &prior);
+/// doubts.begin(0, data.start(), &prior);
 /// doubts.add(0, 0, &outcome.estimates, &mut |gap| choice.halved(&turn, &radar, &[], &[], gap));
 /// // eighteen radians of a turn, in sixteen steps
 /// assert!(doubts.found().any(|found| matches!(found.doubt, Doubt::Steps { moved } if moved > 0.1)));
@@ -92,11 +92,14 @@ pub struct Doubts {
     found: [Option<Doubtful>; 3],
     /// Gaps so far, and the longest of those whose steps were halved.
     gaps: (usize, f64),
-    last: Option<Gap>,
+    /// Behind the last row, and of which track it is.
+    last: Option<(usize, Gap)>,
 }
 
 /// A prediction that moves by less is right.
 const MOVED: f64 = 1e-3;
+/// A gap that is so many times the longest so far is looked at.
+const LONGER: f64 = 1.5;
 
 impl Doubts {
     /// About answers of this method.
@@ -106,8 +109,8 @@ impl Doubts {
     }
 
     /// A track begins, with this belief at `time`.
-    pub fn begin(&mut self, time: f64, prior: &Gaussian) {
-        self.stand(time, prior.mean(), prior.cov());
+    pub fn begin(&mut self, track: usize, time: f64, prior: &Gaussian) {
+        self.last = self.equal.then(|| (track, Gap::from(time, prior.mean(), prior.cov())));
     }
 
     /// Looks at rows of a track, the first of which is its row `first`; those of one track follow each other. `halved` is asked how far a prediction
@@ -119,20 +122,25 @@ impl Doubts {
         est: &Estimates,
         halved: &mut dyn FnMut(&Gap) -> Option<f64>,
     ) {
+        let mut begun = self.last.take().filter(|(of, _)| *of == track).map(|(_, gap)| gap);
         for k in 0..est.len() {
-            let (row, time, cov) = (first + k, est.time[k], est.filtered_cov(k));
+            let (row, time) = (first + k, est.time[k]);
             let at = |doubt| Doubtful { track, row, time, doubt, rows: 1 };
-            let moved = self.gap(row, time).and_then(|gap| halved(&gap));
-            if let Some(moved) = moved.filter(|moved| *moved > MOVED) {
+            let before = k.checked_sub(1);
+            let from = begun.as_ref().map(|gap| gap.from).or_else(|| Some(est.time[before?]));
+            let looked_at = from.is_some_and(|from| self.equal && self.looks_at(time - from));
+            let gap = begun.take().or_else(|| before.filter(|_| looked_at).map(|row| stand(est, row)));
+            if let Some(moved) = gap.filter(|_| looked_at).and_then(|gap| halved(&gap.until(row, time)))
+                && moved > MOVED
+            {
                 self.note(at(Doubt::Steps { moved }));
             }
-            for doubt in self.digits.lost(est.predicted_cov(k), cov) {
+            for doubt in self.digits.lost(est.predicted_cov(k), est.filtered_cov(k)) {
                 self.note(at(doubt));
             }
-            if self.equal {
-                self.stand(time, est.filtered_mean(k), cov);
-            }
         }
+        let end = est.len().checked_sub(1).filter(|_| self.equal);
+        self.last = end.map(|end| (track, stand(est, end)));
     }
 
     /// What was found: no more than one of each kind.
@@ -140,25 +148,18 @@ impl Doubts {
         self.found.iter().flatten()
     }
 
-    /// The gap to a row, if its steps are to be halved.
-    fn gap(&mut self, row: usize, to: f64) -> Option<Gap> {
-        let last = self.last.take()?;
-        let gap = Gap { row, to, ..last };
+    /// Whether the steps of one more gap are halved.
+    fn looks_at(&mut self, length: f64) -> bool {
         let (count, longest) = &mut self.gaps;
-        if gap.to <= gap.from {
-            return None;
+        if length <= 0.0 {
+            return false;
         }
         *count += 1;
-        let longer = gap.length() >= 1.5 * *longest;
+        let longer = length >= LONGER * *longest;
         if longer {
-            *longest = gap.length();
+            *longest = length;
         }
-        (longer || count.is_power_of_two()).then_some(gap)
-    }
-
-    fn stand(&mut self, from: f64, mean: &[f64], cov: &[f64]) {
-        let (mean, cov) = (mean.to_vec(), cov.to_vec());
-        self.last = self.equal.then_some(Gap { row: 0, from, to: from, mean, cov });
+        longer || count.is_power_of_two()
     }
 
     fn note(&mut self, new: Doubtful) {
@@ -175,4 +176,9 @@ impl Doubts {
             _ => *of = Some(Doubtful { rows, ..new }),
         }
     }
+}
+
+/// The belief after a row, before a gap.
+fn stand(est: &Estimates, row: usize) -> Gap {
+    Gap::from(est.time[row], est.filtered_mean(row), est.filtered_cov(row))
 }

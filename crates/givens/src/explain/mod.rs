@@ -1,5 +1,6 @@
 //! Why a step failed, in the names of a model: what every face of the package tells its users.
 
+mod doubt;
 mod not_finite;
 mod remedy;
 mod single;

@@ -217,6 +217,31 @@ def test_dates_stay_dates():
     assert answers["x"].equals(seconds["x"])
 
 
+def test_the_columns_of_a_part_do_not_depend_on_its_rows():
+    model, sensor, prior = walk()
+    job = model.batch_job(sensor, prior=prior)
+    instants = pa.array(np.array([1, 0, 0, 1], dtype="datetime64[s]"), pa.timestamp("us", "UTC"))
+    given = pa.table({"track_id": [7, 7, 8, 8], "time": instants, "z": [1.0, 2.0, 3.0, 4.0]})
+    parts = [job(given.slice(start, rows)) for start, rows in ((0, 2), (2, 2), (4, 0))]
+    answers, errors = gv.split_errors(pa.concat_tables(parts))
+    assert answers["track_id"].to_pylist() == [8, 8] and errors["track_id"].to_pylist() == [7]
+    assert answers["time"].to_pylist() == given["time"].slice(2).to_pylist()
+
+
+@pytest.mark.parametrize("names", [pa.array([2**64 - 1, 2**64 - 1, 5, 5], pa.uint64()), pa.array([7, 7, 8, 8], pa.int16())])
+def test_names_that_are_whole_numbers_stay_so(names, tmp_path):
+    model, sensor, prior = walk()
+    job = model.batch_job(sensor, prior=prior)
+    given = pa.table({"track_id": names, "time": [1.0, 0.0, 0.0, 1.0], "z": [1.0, 2.0, 3.0, 4.0]})
+    answers, errors = gv.split_errors(job(given))
+    assert answers["track_id"].to_pylist() == names[2:].to_pylist() and errors["track_id"].to_pylist() == [names[0].as_py()]
+    kind = pa.uint64() if names.type == pa.uint64() else pa.int64()
+    assert answers["track_id"].type == errors["track_id"].type == kind
+    pyarrow.parquet.write_table(given, tmp_path / "given.parquet")
+    job.into(tmp_path / "answers")(tmp_path / "given.parquet")
+    assert pyarrow.parquet.read_table(tmp_path / "answers/given.parquet")["track_id"].to_pylist() == answers["track_id"].to_pylist()
+
+
 def test_controls_and_sensors_are_columns():
     model = gv.Transition(lambda t, dt, x, u: x + dt * u, noise_cov=[[0.1]], state=["x"], controls=["push"])
     sensors = [gv.Sensor(own, measures=["a"], std=[1.0], name="one"), gv.Sensor(own, measures=["b"], std=[2.0], name="two")]

@@ -32,6 +32,6 @@ pub use page::{Page, Tone};
 pub use partition::{Partition, Partitioned};
 pub use scheme::Scheme;
 pub use table::{
-    Calendar, Refused, Row, Rows, Track, Tracks, Truth, lent_tracks, parse_tracks, parse_truth, read_times,
-    read_tracks, read_tracks_apart, read_truth,
+    Calendar, Ids, Refused, Row, Rows, Track, Tracks, Truth, lent_tracks, parse_tracks, parse_truth,
+    read_times, read_tracks, read_tracks_apart, read_truth,
 };

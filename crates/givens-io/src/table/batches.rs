@@ -5,9 +5,9 @@ use core::fmt::Display;
 use arrow_array::RecordBatch;
 use arrow_schema::{ArrowError, DataType, Schema, SchemaRef};
 
-use super::Tracks;
 use super::columnar::Block;
 use super::reading::{self, How, Reading};
+use super::{Ids, Tracks};
 use crate::decode::{Kind, kind};
 use crate::error::{InputError, InputErrors};
 use crate::findings::Findings;
@@ -53,7 +53,13 @@ impl Batches {
         let (sheet, mut reading) = reading::open(findings, scheme, how)?;
         let header = sheet.header;
         let of = |column: usize| schema.field(column).data_type();
-        reading.whole_ids = reading.columns().track.is_some_and(|column| kind(of(column)) == Kind::Whole);
+        reading.ids = match reading.columns().track.map(|column| kind(of(column))) {
+            Some(Kind::Whole) => Ids::Whole,
+            Some(Kind::Unsigned) => Ids::Unsigned,
+            _ => Ids::Words,
+        };
+        // words may be seconds too, but hardly are
+        reading.dates = matches!(kind(of(reading.columns().time)), Kind::Date(..) | Kind::Text);
         let mut named = reading.columns().track.into_iter().chain(reading.columns().sensor);
         if let Some(column) = named.find(|&column| !names_things(of(column))) {
             let error = findings.source.whole(format!("`{}` holds {}", header[column], of(column)));

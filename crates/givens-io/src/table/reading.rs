@@ -12,7 +12,7 @@ use super::row::{row, track_id};
 use super::sheet::Sheet;
 use super::spool::Spool;
 use super::time::Time;
-use super::{Refused, Tracks};
+use super::{Ids, Refused, Tracks};
 use crate::error::{InputError, InputErrors};
 use crate::findings::{Findings, Found};
 use crate::scheme::Scheme;
@@ -94,8 +94,10 @@ pub(super) struct Reading {
     kind: Option<Time>,
     /// Rows so far, those that were wrong among them.
     rows: usize,
-    /// Whether names of tracks are whole numbers.
-    pub whole_ids: bool,
+    /// What names of tracks are.
+    pub ids: Ids,
+    /// Whether times are dates where no row has told their kind.
+    pub dates: bool,
     ranges: Vec<Option<[f64; 2]>>,
     /// Rows that were not written to the disk.
     held: usize,
@@ -114,7 +116,8 @@ impl Reading {
             known: HashMap::new(),
             kind: None,
             rows: 0,
-            whole_ids: false,
+            ids: Ids::Words,
+            dates: scheme.epoch.is_some(),
             ranges,
             held: 0,
             how,
@@ -222,14 +225,16 @@ impl Reading {
         let (scheme, refused) = (self.scheme, self.refused);
         let (has_track_id, has_sensor) = (self.columns.track.is_some(), self.columns.sensor.is_some());
         let (ignored, ranges) = (self.columns.ignored, self.ranges);
-        let whole_ids = self.whole_ids;
+        let ids = self.ids;
+        let dated = self.kind.map_or(self.dates, |time| matches!(time, Time::Calendar(_)));
         Some(Tracks {
             scheme,
             tracks,
             refused,
             ignored,
             has_track_id,
-            whole_ids,
+            ids,
+            dated,
             has_sensor,
             ranges,
             fingerprint,

@@ -60,7 +60,7 @@ pub(super) fn open<'f>(
     how: How,
 ) -> Option<(Sheet<'f>, Reading)> {
     let known = if how.measured { "time and the measures" } else { "time" };
-    let sheet = Sheet::open(findings, known)?;
+    let sheet = Sheet::open(findings, known, |name| header::means(scheme, name))?;
     let measured = how.measured || header::names_measures(&sheet, scheme);
     let columns = header::columns(&sheet, scheme, measured)?;
     Some((sheet, Reading::new(scheme, columns, how)))
@@ -75,11 +75,13 @@ pub(super) struct How {
     pub held: usize,
     /// Whether a track with a wrong row is left out alone, in place of the whole table.
     pub apart: bool,
+    /// Whether columns of words may hold numbers, as those do that `givens partition` has left as they were written.
+    pub in_words: bool,
 }
 
 impl Default for How {
     fn default() -> Self {
-        Self { measured: true, held: HELD, apart: false }
+        Self { measured: true, held: HELD, apart: false, in_words: true }
     }
 }
 

@@ -151,7 +151,7 @@ fn follow(model: &Model, tracks: &Tracks, batches: &[RecordBatch]) {
     match lent.rows(&parts) {
         Ok(batch) => assert_eq!(batch.num_rows(), lines),
         // beyond what nanoseconds count
-        Err(error) => assert!(tracks.is_dated(), "{error}"),
+        Err(error) => assert!(tracks.dated, "{error}"),
     }
 }
 

@@ -115,7 +115,7 @@ fn follow(model: &Model, tracks: &Tracks, text: &str) {
         let writer = AnswerWriter { format, layout, tracks, smoothed: false, gated: false, threads };
         // dates may be beyond what nanoseconds count
         let done = writer.write(&mut out, &answers);
-        assert!(done.is_ok() || format == Format::Parquet && tracks.is_dated());
+        assert!(done.is_ok() || format == Format::Parquet && tracks.dated);
         out
     };
     written(Format::Parquet);

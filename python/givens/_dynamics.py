@@ -2,21 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, Self
+from typing import Any, Self
 
 import numpy as np
 
 from givens._arrays import Array
+from givens._batched import Batched
 from givens._names import known_name, listed, names_of
 from givens._part import Part, Request
 from givens._trace.arguments import parameter_value
 from givens.errors import InputError
-
-if TYPE_CHECKING:
-    from givens.gaussian import Gaussian
-    from givens.job import BatchJob
 
 __all__ = ["Dynamics", "Parametric", "begin", "called_at_once", "noise_request", "parameters_of", "read_jacobian"]
 
@@ -113,7 +110,7 @@ class Parametric:
         )
 
 
-class Dynamics(Parametric):
+class Dynamics(Parametric, Batched):
     """States, controls and the two functions of a model of motion."""
 
     __slots__ = ("_joined", "_parts", "controls", "jacobian", "state")
@@ -148,61 +145,6 @@ class Dynamics(Parametric):
 
     def __setstate__(self, fields: dict[str, Any]) -> None:
         self._put(**fields)
-
-    def batch_job(
-        self,
-        sensors: Any,
-        *,
-        prior: Gaussian | Callable[[Any, Any], Gaussian],
-        goal: str = "filter",
-        lag: int | None = None,
-        method: str | None = None,
-        output: str = "wide",
-        t0: float | None = None,
-        params: Mapping[str, Any] | None = None,
-        threads: int | None = None,
-        **options: Any,
-    ) -> BatchJob:
-        """A run over tables of many tracks, to be sent to where they are; see `BatchJob`.
-
-        Parameters
-        ----------
-        sensors : Sensor or list of Sensor
-            What is measured.
-        prior : Gaussian, or a function of a track's times (rows,) and measurements (rows, d) that gives one
-            The belief in which each track begins. A function must be one that can be pickled, if the job is to be.
-        goal : str
-            ``"filter"``, or ``"smooth"``; with `lag`, that many rows later.
-        method : str, optional
-            A name of `methods`.
-        output : str
-            The columns of the answers. ``"wide"``: mean and standard deviation of each state, NIS and log-likelihood.
-            ``"covariances"``: also ``cov``, of each row the lower triangle, row by row. ``"tidy"``: a row for each
-            state.
-        t0 : float, optional
-            When the prior holds; by default at the first row of each track. Of tables with dates, seconds after that.
-        params : mapping, optional
-            Values of parameters by name.
-        threads : int, optional
-            By default as many as there are cores, and one where the job has come by pickle.
-        **options
-            Parts and options of the method, as for `filter`.
-        """
-        from givens.job import BatchJob
-
-        return BatchJob(
-            self,
-            sensors,
-            prior=prior,
-            goal=goal,
-            lag=lag,
-            method=method,
-            output=output,
-            t0=t0,
-            params=params,
-            threads=threads,
-            **options,
-        )
 
 
 def begin(

@@ -124,7 +124,7 @@ def _of_file(model: ModelFile, sensors: Any, noise: Mapping[str, Any]) -> Joined
         raise InputError(
             "`sensors` are given beside a model file, which has its own",
             argument="sensors",
-            remedy="write gv.filter(model_file, None, t, z) or model_file.filter(…)",
+            remedy="leave them out: gv.filter(model_file, None, t, z), model_file.filter(…), model_file.batch_job(…)",
         )
     if noise:
         raise InputError("`noise` cannot be given for a model file", argument="noise", remedy="write it into the file")

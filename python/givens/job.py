@@ -19,7 +19,7 @@ from givens._lazy import wanted
 from givens._method import choose
 from givens._plan import Goal, read_prior, with_parameters
 from givens._scalars import mapping, shown, text, threads_of, whole
-from givens._sent import Sent
+from givens._sent import Sent, sendable
 from givens.errors import GivensError, InputError
 from givens.gaussian import Gaussian
 from givens.model_file import ModelFile
@@ -159,6 +159,12 @@ class BatchJob(Sent):
             raise InputError(f"`goal` is {shown(goal)}", argument="goal", remedy="one of 'filter', 'smooth'")
         if lag is not None and goal == "filter":
             raise InputError("`lag` is given to a filter", argument="lag", remedy='write goal="smooth"')
+        if t0 is not None and isinstance(model, ModelFile):
+            raise InputError(
+                "`t0` is given beside a model file, which says itself when its belief holds",
+                argument="t0",
+                remedy="write `time` into [state] of the file",
+            )
         self._model, self._sensors = with_parameters(model, sensors, mapping("params", params, "params={name: value}"))
         self._prior, self._t0, self._method, self._options = prior, _start(t0), method, dict(options)
         self.goal, self.output = goal, output
@@ -178,7 +184,7 @@ class BatchJob(Sent):
         return self._made
 
     def __getstate__(self) -> dict[str, Any]:
-        return {**super().__getstate__(), "_made": None}
+        return {**super().__getstate__(), "_made": None, "_prior": sendable("prior", self._prior)}
 
     def __call__(self, table: Any) -> Any:
         """The answers of a table, as a `pyarrow.Table`.
@@ -423,7 +429,7 @@ def split_errors(table: Any) -> tuple[Any, Any]:
     Parameters
     ----------
     table : pyarrow.Table
-        From one call, or from several below each other.
+        From one call, or from several below each other; or what another library has made of it.
 
     Returns
     -------
@@ -431,20 +437,44 @@ def split_errors(table: Any) -> tuple[Any, Any]:
         The answers without the column ``error``; and ``track_id``, if there is one, ``time``, ``reason``, ``error``.
     """
     compute = wanted("pyarrow.compute")
-    if "error" not in getattr(table, "column_names", ()):
-        raise InputError(
-            "the table has no column `error`",
-            argument="table",
-            remedy="give what a job gives, as a pyarrow.Table; a file has none, and its failures stand in its Summary",
-        )
+    table = _with_errors(table)
     wrong = compute.is_valid(table["error"])
     answers = table.filter(compute.invert(wrong)).drop_columns(["error"])
     failed = table.filter(wrong)
     words = compute.split_pattern(failed["error"], ": ", max_splits=1)
+    if compute.any(compute.less(compute.list_value_length(words), 2)).as_py():
+        raise InputError(
+            f"the column `error` holds {shown(failed['error'][0].as_py())}, which is no reason of a job",
+            argument="table",
+            remedy="give the table of a job's answers as it is",
+        )
     reasons, messages = (compute.list_element(words, k) for k in (0, 1))
     keys = [name for name in ("track_id", "time") if name in table.column_names]
     errors = failed.select(keys).append_column("reason", reasons).append_column("error", messages)
     return answers, errors
+
+
+def _with_errors(table: Any) -> Any:
+    """A `pyarrow.Table`, whatever the answers became on the way, with the column `error` as words."""
+    arrow = wanted("pyarrow")
+    remedy = "give the table of a job's answers; a file has none, and its failures stand in its Summary"
+    if not isinstance(table, arrow.Table):
+        lends = hasattr(table, "__arrow_c_stream__") or hasattr(table, "__arrow_c_array__")
+        try:
+            table = arrow.table(table) if lends else None
+        except (arrow.ArrowException, TypeError, ValueError):
+            table = None
+        if table is None:
+            raise InputError("`table` is no table of answers", argument="table", remedy=remedy)
+    if table.column_names.count("error") != 1:
+        found = "several columns" if "error" in table.column_names else "no column"
+        raise InputError(f"the table has {found} `error`", argument="table", remedy=remedy)
+    place = table.column_names.index("error")
+    of = table.schema.field(place).type
+    words = of.value_type if arrow.types.is_dictionary(of) else of
+    if words not in (arrow.null(), arrow.string(), arrow.large_string(), arrow.string_view()):
+        raise InputError(f"the column `error` holds {of}, not words", argument="table", remedy=remedy)
+    return table.set_column(place, "error", table["error"].cast(arrow.string()))
 
 
 def _failed(track_id: str | None, time: str | None, said: str, file: str | None) -> FailedTrack:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from givens._batched import Batched
 from givens._names import known_name
 from givens._native import Model
 from givens._scalars import shown
@@ -19,12 +20,11 @@ from givens.gaussian import Gaussian
 
 if TYPE_CHECKING:
     from givens.estimates import Estimates
-    from givens.job import BatchJob
 
 __all__ = ["ModelFile", "parse_model", "read_model"]
 
 
-class ModelFile:
+class ModelFile(Batched):
     """A model file: model, sensors, prior or start, and method.
 
     `read_model` and `parse_model` make it; every function that takes a model and its sensors takes it alone.
@@ -158,55 +158,6 @@ class ModelFile:
         from givens.running import smooth
 
         return smooth(self, None, t, z, **options)
-
-    def batch_job(
-        self,
-        *,
-        prior: Gaussian | Callable[[Any, Any], Gaussian] | None = None,
-        goal: str = "filter",
-        lag: int | None = None,
-        method: str | None = None,
-        output: str = "wide",
-        params: Mapping[str, Any] | None = None,
-        threads: int | None = None,
-        **options: Any,
-    ) -> BatchJob:
-        """A run over tables of many tracks, to be sent to where they are; see `BatchJob`.
-
-        Parameters
-        ----------
-        prior : Gaussian, or a function of a track's times (rows,) and measurements (rows, d) that gives one, optional
-            The belief in which each track begins, in place of that of the file. A function must be one that can be
-            pickled, if the job is to be.
-        goal : str
-            ``"filter"``, or ``"smooth"``; with `lag`, that many rows later.
-        method : str, optional
-            A name of `methods`.
-        output : str
-            The columns of the answers. ``"wide"``: mean and standard deviation of each state, NIS and log-likelihood.
-            ``"covariances"``: also ``cov``, of each row the lower triangle, row by row. ``"tidy"``: a row for each
-            state.
-        params : mapping, optional
-            Values of parameters by name.
-        threads : int, optional
-            By default as many as there are cores, and one where the job has come by pickle.
-        **options
-            Parts and options of the method, as for `filter`.
-        """
-        from givens.job import BatchJob
-
-        return BatchJob(
-            self,
-            None,
-            prior=prior,
-            goal=goal,
-            lag=lag,
-            method=method,
-            output=output,
-            params=params,
-            threads=threads,
-            **options,
-        )
 
     def _table(self) -> list[tuple[str, str]]:
         parameters = ", ".join(f"{name}={value:g}" for name, value in self.parameters.items())

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from inspect import signature
 from itertools import pairwise
-from typing import Any
+from typing import Any, ParamSpec, TypeVar
 
 import numpy as np
 
@@ -24,6 +25,9 @@ from givens.running import filter, smooth
 from givens.simulation import simulate
 
 __all__ = ["Study", "study"]
+
+_P = ParamSpec("_P")
+_R = TypeVar("_R")
 
 #: Runs that are simulated and estimated at once.
 _TOGETHER = 256
@@ -67,6 +71,12 @@ class Study(Sent):
     ) -> None:
         if goal not in ("filter", "smooth"):
             raise InputError(f"`goal` is {shown(goal)}", argument="goal", remedy="one of 'filter', 'smooth'")
+        if "lag" in common:
+            raise InputError(
+                "`lag` is given to a study, whose smoothers see all rows",
+                argument="lag",
+                remedy="leave it out, or call gv.smooth(…, lag=…) with what gv.simulate gives",
+            )
         named = isinstance(methods, Sequence) and not isinstance(methods, str) and len(methods) > 0
         if not named or not all(isinstance(name, str) for name in methods) or len(set(methods)) < len(methods):
             raise InputError(
@@ -241,22 +251,18 @@ class Study(Sent):
         return f"Study({self.runs} runs, seed={self.seed}, methods={list(self.methods)})"
 
 
-def study(
-    model: Any,
-    sensors: Any,
-    t: Any,
-    *,
-    prior: Gaussian,
-    methods: Sequence[str],
-    runs: int,
-    seed: int,
-    goal: str = "filter",
-    params: Mapping[str, Any] | None = None,
-    options: Mapping[str, Mapping[str, Any]] | None = None,
-    threads: int | None = None,
-    substeps: int = 16,
-    **common: Any,
-) -> Study:
+def _signed_as(made: Callable[_P, _R]) -> Callable[[Callable[..., _R]], Callable[_P, _R]]:
+    """A function that hands on all that it is given, with the signature of what it hands it to."""
+
+    def signed(function: Callable[..., _R]) -> Callable[_P, _R]:
+        vars(function)["__signature__"] = signature(made)
+        return function
+
+    return signed
+
+
+@_signed_as(Study)
+def study(*given: Any, **named: Any) -> Study:
     """Describes a Monte-Carlo study; nothing is computed yet.
 
     Parameters
@@ -295,21 +301,7 @@ def study(
     >>> sorted(study.summary(parts)["ekf"])
     ['failed', 'log_likelihood', 'nees', 'nis', 'rmse_x', 'runs']
     """
-    return Study(
-        model,
-        sensors,
-        t,
-        prior=prior,
-        methods=methods,
-        runs=runs,
-        seed=seed,
-        goal=goal,
-        params=params,
-        options=options,
-        threads=threads,
-        substeps=substeps,
-        **common,
-    )
+    return Study(*given, **named)
 
 
 def _said(failed: StepError, track: int) -> str:

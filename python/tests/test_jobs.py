@@ -1,7 +1,9 @@
 """Jobs over tables of tracks: the answers of a run, of any cut, wherever they are computed."""
 
+import copy
 import os
 import pickle
+import re
 import subprocess
 import sys
 from concurrent.futures import ProcessPoolExecutor
@@ -191,6 +193,17 @@ def test_a_job_is_small_and_keeps_what_it_is(job):
     assert asked.threads == 3
 
 
+def test_a_prior_without_a_name_is_sent_whole_or_refused(monkeypatch):
+    model, sensor, _ = walk()
+    given, scale = table(), 2.0
+    job = model.batch_job(sensor, prior=lambda t, z: gv.Gaussian([z[0, 0]], std=[scale]))
+    there = pickle.loads(pickle.dumps(job))
+    assert there(given).equals(job(given)) and copy.copy(job)(given).equals(job(given))
+    monkeypatch.setitem(sys.modules, "cloudpickle", None)
+    with pytest.raises(gv.InputError, match="`prior` cannot be sent: .*lambda.*(?s:.)*write it with `def` at the top"):
+        pickle.dumps(job)
+
+
 def test_another_version_is_refused(job, monkeypatch):
     data = pickle.dumps(job)
     monkeypatch.setattr(gv._native, "VERSION", "9.9", raising=True)
@@ -215,6 +228,31 @@ def test_dates_stay_dates():
     assert answers["time"].equals(given["time"])
     seconds = job(pa.table({"time": [0.0, 1.0], "z": [1.0, 2.0]}))
     assert answers["x"].equals(seconds["x"])
+
+
+def test_the_columns_of_a_part_do_not_depend_on_its_rows():
+    model, sensor, prior = walk()
+    job = model.batch_job(sensor, prior=prior)
+    instants = pa.array(np.array([1, 0, 0, 1], dtype="datetime64[s]"), pa.timestamp("us", "UTC"))
+    given = pa.table({"track_id": [7, 7, 8, 8], "time": instants, "z": [1.0, 2.0, 3.0, 4.0]})
+    parts = [job(given.slice(start, rows)) for start, rows in ((0, 2), (2, 2), (4, 0))]
+    answers, errors = gv.split_errors(pa.concat_tables(parts))
+    assert answers["track_id"].to_pylist() == [8, 8] and errors["track_id"].to_pylist() == [7]
+    assert answers["time"].to_pylist() == given["time"].slice(2).to_pylist()
+
+
+@pytest.mark.parametrize("names", [pa.array([2**64 - 1, 2**64 - 1, 5, 5], pa.uint64()), pa.array([7, 7, 8, 8], pa.int16())])
+def test_names_that_are_whole_numbers_stay_so(names, tmp_path):
+    model, sensor, prior = walk()
+    job = model.batch_job(sensor, prior=prior)
+    given = pa.table({"track_id": names, "time": [1.0, 0.0, 0.0, 1.0], "z": [1.0, 2.0, 3.0, 4.0]})
+    answers, errors = gv.split_errors(job(given))
+    assert answers["track_id"].to_pylist() == names[2:].to_pylist() and errors["track_id"].to_pylist() == [names[0].as_py()]
+    kind = pa.uint64() if names.type == pa.uint64() else pa.int64()
+    assert answers["track_id"].type == errors["track_id"].type == kind
+    pyarrow.parquet.write_table(given, tmp_path / "given.parquet")
+    job.into(tmp_path / "answers")(tmp_path / "given.parquet")
+    assert pyarrow.parquet.read_table(tmp_path / "answers/given.parquet")["track_id"].to_pylist() == answers["track_id"].to_pylist()
 
 
 def test_controls_and_sensors_are_columns():
@@ -263,6 +301,80 @@ def test_a_table_without_the_columns_is_an_error(job):
         job(table().drop_columns(["z"]))
     with pytest.raises(gv.InputError, match="lends no columns"):
         job([1, 2])
+
+
+@pytest.mark.parametrize(
+    ("column", "values", "said"),
+    [
+        ("z", pa.array(["1", "2"]), "`z` holds Utf8"),
+        ("track_id", pa.array([1.0, 1.0]), "cast it to int64"),
+        ("track_id", pa.nulls(2), "leave the column out"),
+    ],
+)
+def test_a_column_of_a_wrong_type_is_one_error(job, column, values, said):
+    given = table(tracks=1, rows=2)
+    with pytest.raises(gv.InputError, match=said):
+        job(given.set_column(given.column_names.index(column), column, values))
+
+
+def test_what_is_no_table_of_answers_is_told(job):
+    right = job(table())
+    column = right.column_names.index("error")
+    for wrong, said in [
+        (right.set_column(column, "error", pa.array([[1]] * right.num_rows)), "holds list<item: int64>"),
+        (right.set_column(column, "error", pa.array([1] * right.num_rows)), "holds int64, not words"),
+        (right.set_column(column, "error", pa.array(["x"] * right.num_rows)), "holds 'x', which is no reason"),
+        (right.append_column("error", right["error"]), "several columns `error`"),
+        (right.drop_columns(["error"]), "no column `error`"),
+        (job.run(table()), "no table of answers"),
+        (right["error"], "no table of answers"),
+    ]:
+        with pytest.raises(gv.InputError, match=re.escape(said)) as caught:
+            gv.split_errors(wrong)
+        assert "answers" in caught.value.remedy
+
+
+def test_answers_are_taken_apart_whatever_they_became(job):
+    given = table().to_pylist()
+    given[5]["time"] = -1.0
+    right = job(pa.Table.from_pylist(given))
+    answers, errors = gv.split_errors(right)
+    words = right["error"]
+    column = right.column_names.index("error")
+    assert errors.num_rows == 1
+    others = [right.set_column(column, "error", words.cast(of)) for of in (pa.large_string(), pa.string_view())]
+    others += [right.set_column(column, "error", words.dictionary_encode()), right.combine_chunks().to_batches()[0]]
+    for other in others:
+        assert gv.split_errors(other)[0].equals(answers) and gv.split_errors(other)[1].equals(errors)
+    pandas = pytest.importorskip("pandas")
+    frame = gv.split_errors(right.to_pandas())
+    assert isinstance(right.to_pandas(), pandas.DataFrame)
+    assert frame[0]["x"].to_pylist() == answers["x"].to_pylist() and frame[1]["error"].to_pylist() == errors["error"].to_pylist()
+
+
+def test_what_is_no_table_or_is_given_twice_is_told(job):
+    for wrong in (pa.array([1, 2]), pa.chunked_array([[1, 2]])):
+        with pytest.raises(gv.InputError) as caught:
+            job(wrong)
+        assert "table" in caught.value.remedy
+    model = fleet.model()
+    for given, said in (({"t0": 1.0}, "`t0` is given beside"), ({"sensors": walk()[1]}, "`sensors` are given beside")):
+        with pytest.raises(gv.InputError, match=said):
+            model.batch_job(**given)
+    with pytest.raises(gv.InputError, match="`sensors` are given beside"):
+        model.batch_job(walk()[1])
+    model, sensor, prior = walk()
+    with pytest.raises(gv.InputError, match="prior"):
+        model.batch_job(sensor)
+    with pytest.raises(gv.InputError, match="sensor"):
+        model.batch_job(prior=prior)
+
+
+def test_a_late_beginning_is_told_in_words_of_python():
+    model, sensor, prior = walk()
+    _, errors = gv.split_errors(model.batch_job(sensor, prior=prior, t0=5.0)(table(tracks=1)))
+    [said] = errors["error"].to_pylist()
+    assert "`t0`" in said and "[state]" not in said
 
 
 def test_files_are_written_as_the_command_writes_them(tmp_path):

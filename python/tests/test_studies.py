@@ -1,5 +1,6 @@
 """Monte-Carlo studies: the same runs however they are cut."""
 
+import inspect
 import pickle
 
 import numpy as np
@@ -68,7 +69,7 @@ def test_runs_that_fail_stand_there_and_cost_no_other():
 
 @pytest.mark.parametrize(
     ("changes", "said"),
-    [({"methods": "ekf"}, "methods"), ({"methods": ["efk"]}, "ekf"), ({"runs": 0}, "runs"), ({"goal": "x"}, "goal"), ({"options": {"ukf": {}}}, "ukf"), ({"methods": ["ekf", "ekf"]}, "once"), ({"methods": 3}, "methods"), ({"prior": None}, "prior"), ({"substeps": 0}, "substeps")],
+    [({"methods": "ekf"}, "methods"), ({"methods": ["efk"]}, "ekf"), ({"runs": 0}, "runs"), ({"goal": "x"}, "goal"), ({"options": {"ukf": {}}}, "ukf"), ({"methods": ["ekf", "ekf"]}, "once"), ({"methods": 3}, "methods"), ({"prior": None}, "prior"), ({"substeps": 0}, "substeps"), ({"goal": "smooth", "lag": 2}, "`lag` is given to a study")],
 )
 def test_what_cannot_serve_is_told_at_once(changes, said):
     model = gv.Transition(lambda t, dt, x: x, noise_cov=[[0.1]], state=["x"])
@@ -76,6 +77,11 @@ def test_what_cannot_serve_is_told_at_once(changes, said):
     usual = {"prior": gv.Gaussian([0], std=[1]), "methods": ["ekf"], "runs": 3, "seed": 1}
     with pytest.raises(gv.InputError, match=said):
         gv.study(model, sensor, range(3), **{**usual, **changes})
+
+
+def test_the_signature_is_that_of_the_class():
+    assert inspect.signature(gv.study) == inspect.signature(gv.Study)
+    assert list(inspect.signature(gv.study).parameters)[:4] == ["model", "sensors", "t", "prior"]
 
 
 def test_runs_beyond_the_last_are_refused(study):

@@ -6,7 +6,7 @@ use crate::figure::Shown;
 use crate::instants::Instants;
 use crate::message::Stop;
 use crate::plan::Plan;
-use crate::portion::{Portion, portions};
+use crate::portion;
 use crate::progress::Progress;
 use crate::sums::Sums;
 use core::num::NonZeroUsize;
@@ -16,7 +16,7 @@ use core::time::Duration;
 use givens::batch::Batch;
 use givens::registry::Choice;
 use givens::{Estimates, Goal, Outcome};
-use givens_io::Answer;
+use givens_io::{Answer, Portion, portions};
 use std::time::Instant;
 
 /// How a plan is carried out.
@@ -69,7 +69,7 @@ impl Session {
         let mut session = Self::new(plan, choice, goals, manner);
         shown(rows(plan), manner, |count| {
             let mut done = done.into_iter();
-            for portion in portions(plan, goals) {
+            for portion in portions(&plan.tracks.tracks, |i| goals[i]) {
                 if let Some((answers, at, failures, sums)) = done.next() {
                     let rows = answers.iter().map(|answer| answer.estimates.len()).sum();
                     count.fetch_add(rows, Ordering::Relaxed);
@@ -104,7 +104,7 @@ impl Session {
     ) -> Result<Self, Stop> {
         let mut session = Self::new(plan, choice, goals, manner);
         shown(rows(plan), manner, |count| {
-            for portion in portions(plan, goals) {
+            for portion in portions(&plan.tracks.tracks, |i| goals[i]) {
                 let tracks = portion.tracks.clone();
                 session.portion(plan, choice, portion, manner, count)?;
                 let [answers, at] = [&mut session.answers, &mut session.at].map(core::mem::take);
@@ -140,7 +140,7 @@ impl Session {
         let Manner { at, threads, .. } = manner;
         let batch = Batch { goal: portion.goal, threads, rows: Some(count), ..Batch::default() };
         let begun = Instant::now();
-        let outcomes = portion.run(plan, choice, &batch, at)?;
+        let outcomes = portion::run(&portion, plan, choice, &batch, at)?;
         self.took += begun.elapsed();
         let mut outcomes = outcomes.into_iter().peekable();
         for i in portion.tracks {

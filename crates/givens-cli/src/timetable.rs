@@ -3,7 +3,7 @@
 use crate::args::SimulateArgs;
 use crate::message::Stop;
 use givens::scalar::Shown;
-use givens_io::{Model, Row, Rows, Track, Tracks};
+use givens_io::{Ids, Model, Row, Rows, Track, Tracks};
 
 /// Rows, of all runs together, that fit into memory.
 const MOST_ROWS: f64 = 1e7;
@@ -42,7 +42,8 @@ pub fn regular(model: &Model, args: &SimulateArgs) -> Result<Tracks, Stop> {
         refused: vec![],
         ignored: vec![],
         has_track_id: false,
-        whole_ids: false,
+        ids: Ids::Words,
+        dated: model.epoch.is_some(),
         has_sensor: apart,
         ranges: vec![],
         fingerprint: String::new(),

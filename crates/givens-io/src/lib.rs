@@ -14,6 +14,7 @@ mod output;
 mod page;
 mod pages;
 mod partition;
+mod portion;
 mod scheme;
 mod source;
 mod table;
@@ -26,12 +27,13 @@ pub use model_file::{
 };
 pub use output::{
     Answer, AnswerWriter, Answers, Destination, DestinationError, Drawn, FailedTrack, Format, Layout,
-    LentAnswers, PORTION, Part, Written, make_folder, read_back, write_measurements, write_states,
+    LentAnswers, Part, Written, make_folder, read_back, write_measurements, write_states,
 };
 pub use page::{Page, Tone};
 pub use partition::{Partition, Partitioned};
+pub use portion::{Portion, Unread, portions};
 pub use scheme::Scheme;
 pub use table::{
-    Calendar, Refused, Row, Rows, Track, Tracks, Truth, lent_tracks, parse_tracks, parse_truth, read_times,
-    read_tracks, read_tracks_apart, read_truth,
+    Calendar, Ids, Refused, Row, Rows, Track, Tracks, Truth, lent_tracks, parse_tracks, parse_truth,
+    read_times, read_tracks, read_tracks_apart, read_truth,
 };

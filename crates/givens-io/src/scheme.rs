@@ -14,6 +14,8 @@ pub struct Scheme {
     pub sensors: Vec<Sensor>,
     /// The time at which the initial belief holds; none: at the first row of each track.
     pub time: Option<f64>,
+    /// What to do where a track has rows before that time.
+    pub late: &'static str,
     /// The instant from which that time counts, if it is one of the calendar.
     pub epoch: Option<Calendar>,
     /// The fixed length of a step, of which a gap is a whole number.
@@ -39,6 +41,7 @@ impl Model {
             controls: self.controls.clone(),
             sensors: self.sensors.clone(),
             time: self.time,
+            late: "set `time` in [state] to the first row's or earlier, or leave it out",
             epoch: self.epoch,
             step: self.step(),
             fingerprint: self.fingerprint(),

@@ -1,5 +1,7 @@
 //! Answers in columns: record batches, and a Parquet file of them.
 
+use core::num::ParseIntError;
+use core::str::FromStr;
 use std::collections::HashMap;
 use std::io::{self, Write};
 use std::sync::Arc;
@@ -8,6 +10,7 @@ use arrow_array::builder::{FixedSizeListBuilder, Float64Builder, StringDictionar
 use arrow_array::types::Int32Type;
 use arrow_array::{
     ArrayRef, BooleanArray, Float64Array, Int64Array, RecordBatch, StringArray, TimestampNanosecondArray,
+    UInt64Array,
 };
 use arrow_schema::{DataType, Field, Schema, SchemaRef, TimeUnit};
 use givens::Estimates;
@@ -16,7 +19,7 @@ use parquet::basic::{Compression, ZstdLevel};
 use parquet::file::properties::WriterProperties;
 
 use super::{AnswerWriter, Layout, Line};
-use crate::table::Calendar;
+use crate::table::{Calendar, Ids};
 
 /// Rows of a group, at least.
 const GROUP: usize = 1 << 17;
@@ -75,17 +78,21 @@ fn hand_on(file: &mut ArrowWriter<Vec<u8>>, out: &mut dyn Write) -> io::Result<(
 pub(super) fn schema(of: &AnswerWriter) -> Schema {
     let (scheme, tracks) = (&of.tracks.scheme, of.tracks);
     let number = |name: &str| Field::new(name, DataType::Float64, true);
-    let time = if tracks.is_dated() {
+    let time = if tracks.dated {
         DataType::Timestamp(TimeUnit::Nanosecond, Some("UTC".into()))
     } else {
         DataType::Float64
     };
     let seconds = HashMap::from([("unit".to_owned(), "s".to_owned())]);
     let time = Field::new("time", time, false);
-    let time = if tracks.is_dated() { time } else { time.with_metadata(seconds) };
+    let time = if tracks.dated { time } else { time.with_metadata(seconds) };
     let mut fields = vec![time];
     if tracks.has_track_id {
-        let of = if tracks.whole_ids { DataType::Int64 } else { DataType::Utf8 };
+        let of = match tracks.ids {
+            Ids::Words => DataType::Utf8,
+            Ids::Whole => DataType::Int64,
+            Ids::Unsigned => DataType::UInt64,
+        };
         fields.push(Field::new("track_id", of, false));
     }
     fields.extend(tracks.has_sensor.then(|| Field::new("sensor", DataType::Utf8, true)));
@@ -124,7 +131,7 @@ pub(super) fn arrays(of: &AnswerWriter, lines: &[Line]) -> Result<Vec<ArrayRef>,
     let each = if tidy { n } else { 1 };
     let spread = || lines.iter().flat_map(|line| core::iter::repeat_n(line, each));
     let mut all: Vec<ArrayRef> = Vec::new();
-    if tracks.is_dated() {
+    if tracks.dated {
         let nanoseconds = spread().map(|line| instant(&line.row.time_text)).collect::<Result<Vec<_>, _>>()?;
         all.push(Arc::new(TimestampNanosecondArray::from(nanoseconds).with_timezone("UTC")));
     } else {
@@ -132,11 +139,10 @@ pub(super) fn arrays(of: &AnswerWriter, lines: &[Line]) -> Result<Vec<ArrayRef>,
     }
     if tracks.has_track_id {
         let ids = spread().map(|line| line.track.unwrap_or_default());
-        all.push(if tracks.whole_ids {
-            let ids = ids.map(|id| id.parse::<i64>().map_err(|error| format!("track {id}: {error}")));
-            Arc::new(Int64Array::from(ids.collect::<Result<Vec<_>, _>>()?))
-        } else {
-            Arc::new(StringArray::from_iter_values(ids))
+        all.push(match tracks.ids {
+            Ids::Words => Arc::new(StringArray::from_iter_values(ids)),
+            Ids::Whole => Arc::new(Int64Array::from(whole::<i64>(ids)?)),
+            Ids::Unsigned => Arc::new(UInt64Array::from(whole::<u64>(ids)?)),
         });
     }
     if tracks.has_sensor {
@@ -191,6 +197,11 @@ pub(super) fn arrays(of: &AnswerWriter, lines: &[Line]) -> Result<Vec<ArrayRef>,
         all.push(packed(lines, n));
     }
     Ok(all)
+}
+
+/// Names that are whole numbers.
+fn whole<'a, T: FromStr<Err = ParseIntError>>(ids: impl Iterator<Item = &'a str>) -> Result<Vec<T>, String> {
+    ids.map(|id| id.parse().map_err(|error| format!("track {id}: {error}"))).collect()
 }
 
 /// The lower triangles of the covariances, row by row.

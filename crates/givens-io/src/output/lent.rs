@@ -4,7 +4,8 @@ use std::io;
 use std::sync::Arc;
 
 use arrow_array::{
-    ArrayRef, Float64Array, Int64Array, RecordBatch, StringArray, TimestampNanosecondArray, new_null_array,
+    ArrayRef, Float64Array, Int64Array, RecordBatch, StringArray, TimestampNanosecondArray, UInt64Array,
+    new_null_array,
 };
 use arrow_schema::{DataType, Field, Schema, SchemaRef};
 
@@ -108,6 +109,9 @@ impl<'a> LentAnswers<'a> {
                 }
                 ("track_id", DataType::Int64) => {
                     Arc::new(ids.clone().map(|id| id?.parse::<i64>().ok()).collect::<Int64Array>())
+                }
+                ("track_id", DataType::UInt64) => {
+                    Arc::new(ids.clone().map(|id| id?.parse::<u64>().ok()).collect::<UInt64Array>())
                 }
                 ("track_id", _) => Arc::new(ids.clone().collect::<StringArray>()),
                 ("error", _) => {

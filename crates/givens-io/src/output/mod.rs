@@ -24,9 +24,6 @@ pub use written::Written;
 
 use crate::table::{Row, Track, Tracks};
 
-/// Rows and tracks that are run and written together, at least: enough tracks for packs of equal lengths.
-pub const PORTION: (usize, usize) = (1 << 17, 256);
-
 /// How answers are written.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Format {

@@ -5,9 +5,10 @@ use core::fmt::Display;
 use arrow_array::RecordBatch;
 use arrow_schema::{ArrowError, DataType, Schema, SchemaRef};
 
-use super::Tracks;
 use super::columnar::Block;
+use super::header::Columns;
 use super::reading::{self, How, Reading};
+use super::{Ids, Tracks};
 use crate::decode::{Kind, kind};
 use crate::error::{InputError, InputErrors};
 use crate::findings::Findings;
@@ -28,7 +29,8 @@ pub fn lent_tracks(
     let names: Vec<String> = schema.fields().iter().map(|field| field.name().clone()).collect();
     let source = Source::new(name, line(&names));
     let findings = Findings::new(&source);
-    let Some(mut table) = Batches::open(&findings, schema, scheme, How { apart: true, ..How::default() })
+    let Some(mut table) =
+        Batches::open(&findings, schema, scheme, How { apart: true, in_words: false, ..How::default() })
     else {
         return findings.finish(None);
     };
@@ -53,15 +55,21 @@ impl Batches {
         let (sheet, mut reading) = reading::open(findings, scheme, how)?;
         let header = sheet.header;
         let of = |column: usize| schema.field(column).data_type();
-        reading.whole_ids = reading.columns().track.is_some_and(|column| kind(of(column)) == Kind::Whole);
-        let mut named = reading.columns().track.into_iter().chain(reading.columns().sensor);
-        if let Some(column) = named.find(|&column| !names_things(of(column))) {
-            let error = findings.source.whole(format!("`{}` holds {}", header[column], of(column)));
-            findings.push(error.with_help("name tracks and sensors by words or whole numbers"));
-            return None;
+        reading.ids = match reading.columns().track.map(|column| kind(of(column))) {
+            Some(Kind::Whole) => Ids::Whole,
+            Some(Kind::Unsigned) => Ids::Unsigned,
+            _ => Ids::Words,
+        };
+        // words may be seconds too, but hardly are
+        reading.dates = matches!(kind(of(reading.columns().time)), Kind::Date(..) | Kind::Text);
+        let read: Vec<usize> = (0..header.len()).filter(|&column| reading.columns().reads(column)).collect();
+        for &column in &read {
+            if let Some(remedy) = unfit(of(column), column, reading.columns(), how.in_words) {
+                let error = findings.source.whole(format!("`{}` holds {}", header[column], of(column)));
+                findings.push(error.with_help(remedy));
+            }
         }
-        let read = (0..header.len()).filter(|&column| reading.columns().reads(column)).collect();
-        Some(Self { header, read, reading })
+        findings.none().then_some(Self { header, read, reading })
     }
 
     /// Takes in batches of the columns that are read.
@@ -91,6 +99,31 @@ pub(super) fn line(names: &[String]) -> String {
         if plain { name.clone() } else { format!("\"{}\"", name.replace('"', "\"\"")) }
     };
     names.iter().map(quoted).collect::<Vec<_>>().join(",")
+}
+
+/// What to do about a column of a type that cannot be what the column means.
+fn unfit(of: &DataType, column: usize, columns: &Columns, in_words: bool) -> Option<&'static str> {
+    let found = kind(of);
+    if columns.track == Some(column) {
+        return match of {
+            _ if names_things(of) => None,
+            DataType::Null => Some("give each row the name of its track, or leave the column out"),
+            _ => Some("tracks are named by words or whole numbers: cast it to int64, or to words"),
+        };
+    }
+    if columns.sensor == Some(column) {
+        let fits = names_things(of) || *of == DataType::Null;
+        return (!fits).then_some("sensors are named by words: cast it");
+    }
+    match found {
+        Kind::Number | Kind::Whole | Kind::Unsigned | Kind::Duration(_) => None,
+        Kind::Date(..) | Kind::Text if column == columns.time => None,
+        Kind::Text if in_words => None,
+        _ if column == columns.time => {
+            Some("times are seconds, dates, or words in RFC 3339: cast it to float64 or a timestamp")
+        }
+        _ => Some("measures and controls are numbers, null where there is none: cast it to float64"),
+    }
 }
 
 /// Whether a column of this type can name tracks and sensors.

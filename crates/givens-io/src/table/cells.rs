@@ -9,6 +9,8 @@ use crate::findings::Findings;
 pub(super) trait Cells {
     /// The line, from one; of a table in columns the row.
     fn line(&self) -> usize;
+    /// What that number is of.
+    fn counted(&self) -> &'static str;
     /// The name of a column.
     fn name(&self, column: usize) -> &str;
     /// A column in words: its name and its number.
@@ -32,6 +34,9 @@ pub(super) trait Cells {
 impl Cells for Fields<'_> {
     fn line(&self) -> usize {
         Fields::line(self)
+    }
+    fn counted(&self) -> &'static str {
+        "line"
     }
     fn name(&self, column: usize) -> &str {
         Fields::name(self, column)

@@ -95,7 +95,7 @@ impl<C: Cells> Check<'_, C> {
                 short(&row.time_text),
                 time_text(origin, start)
             );
-            self.wrong(message, "set `time` in [state] to the first row's or earlier, or leave it out");
+            self.wrong(message, self.scheme.late);
             return;
         }
         let from = format!("the initial belief at {}", time_text(origin, start));
@@ -104,7 +104,8 @@ impl<C: Cells> Check<'_, C> {
 
     /// A row against the one before, and all at the time of that.
     fn follows(&self, row: &Row, before: &Row, latest: &[(usize, Option<usize>)]) {
-        let there = || format!("the row at {} (line {})", short(&before.time_text), before.line);
+        let counted = self.cells.counted();
+        let there = || format!("the row at {} ({counted} {})", short(&before.time_text), before.line);
         if row.time < before.time {
             let message = format!("the row at {} stands after {}", short(&row.time_text), there());
             self.wrong(message, "sort the rows of each track by time");
@@ -112,11 +113,12 @@ impl<C: Cells> Check<'_, C> {
             self.steps(row, row.time - before.time, before.time, there);
         } else if differ(&row.time_text, &before.time_text) {
             let (here, line) = (short(&row.time_text), before.line);
-            let message =
-                format!("the time {here} cannot be told from that of line {line}, in seconds to 16 digits");
+            let message = format!(
+                "the time {here} cannot be told from that of {counted} {line}, in seconds to 16 digits"
+            );
             self.wrong(message, "count the times from an instant near the data");
         } else if let Some((line, _)) = latest.iter().find(|(_, sensor)| *sensor == row.sensor) {
-            let message = format!("two rows at {}: this one and line {line}", short(&row.time_text));
+            let message = format!("two rows at {}: this one and {counted} {line}", short(&row.time_text));
             self.wrong(message, "write them as one row, or name a different `sensor` in each");
         }
     }
@@ -133,9 +135,10 @@ impl<C: Cells> Check<'_, C> {
             self.wrong(message, "`step` and the times are in the same unit");
         } else if (steps - steps.round()).abs() > WHOLE.max(rounding) {
             let message = format!(
-                "from {} to {} (line {}) are {} steps of {}, not a whole number",
+                "from {} to {} ({} {}) are {} steps of {}, not a whole number",
                 there(),
                 short(&row.time_text),
+                self.cells.counted(),
                 row.line,
                 fraction(steps),
                 Shown(step)

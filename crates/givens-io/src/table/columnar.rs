@@ -122,6 +122,10 @@ impl Cells for RowOf<'_> {
         self.block.before + self.row + 1
     }
 
+    fn counted(&self) -> &'static str {
+        "row"
+    }
+
     fn name(&self, column: usize) -> &str {
         self.block.header.get(column).map_or("", String::as_str)
     }

@@ -82,6 +82,14 @@ pub(super) fn columns(sheet: &Sheet, scheme: &Scheme, measured: bool) -> Option<
     })
 }
 
+/// Whether a column of this name means something to the model.
+pub(super) fn means(scheme: &Scheme, name: &str) -> bool {
+    let measure = || scheme.sensors.iter().any(|sensor| sensor.columns.iter().any(|column| column == name));
+    ["time", "track_id", "sensor"].contains(&name)
+        || scheme.controls.iter().any(|control| control == name)
+        || measure()
+}
+
 /// Whether a column bears the name of a measure.
 pub(super) fn names_measures(sheet: &Sheet, scheme: &Scheme) -> bool {
     let mut columns = scheme.sensors.iter().flat_map(|sensor| &sensor.columns);

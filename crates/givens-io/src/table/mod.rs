@@ -50,14 +50,28 @@ pub struct Tracks {
     pub ignored: Vec<String>,
     /// Whether the table has the column `track_id`.
     pub has_track_id: bool,
-    /// Whether its names are whole numbers in a table of columns.
-    pub whole_ids: bool,
+    /// As what it names tracks.
+    pub ids: Ids,
+    /// Whether its times are instants of the calendar. The type of a column of dates says so, whatever rows there are.
+    pub dated: bool,
     /// Whether the table has the column `sensor`.
     pub has_sensor: bool,
     /// The least and the most of each measure of the stack; none where no row has it.
     pub ranges: Vec<Option<[f64; 2]>>,
     /// Tells the text of the table from others.
     pub fingerprint: String,
+}
+
+/// What the names of tracks are.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Ids {
+    /// Words, and all that stands in a text.
+    #[default]
+    Words,
+    /// Whole numbers of up to 64 bits with their sign, in a table of columns.
+    Whole,
+    /// Whole numbers from 0 up to 2⁶⁴ − 1, in a table of columns.
+    Unsigned,
 }
 
 /// A track that was left out.
@@ -104,12 +118,6 @@ pub struct Row {
 }
 
 impl Tracks {
-    /// Whether times are instants of the calendar.
-    #[must_use]
-    pub fn is_dated(&self) -> bool {
-        self.tracks.iter().any(|track| track.origin.is_some())
-    }
-
     /// Whether the rows of each track stand together in the table.
     #[must_use]
     pub fn in_turn(&self) -> bool {

@@ -12,7 +12,7 @@ use super::row::{row, track_id};
 use super::sheet::Sheet;
 use super::spool::Spool;
 use super::time::Time;
-use super::{Refused, Tracks};
+use super::{Ids, Refused, Tracks};
 use crate::error::{InputError, InputErrors};
 use crate::findings::{Findings, Found};
 use crate::scheme::Scheme;
@@ -60,7 +60,7 @@ pub(super) fn open<'f>(
     how: How,
 ) -> Option<(Sheet<'f>, Reading)> {
     let known = if how.measured { "time and the measures" } else { "time" };
-    let sheet = Sheet::open(findings, known)?;
+    let sheet = Sheet::open(findings, known, |name| header::means(scheme, name))?;
     let measured = how.measured || header::names_measures(&sheet, scheme);
     let columns = header::columns(&sheet, scheme, measured)?;
     Some((sheet, Reading::new(scheme, columns, how)))
@@ -75,11 +75,13 @@ pub(super) struct How {
     pub held: usize,
     /// Whether a track with a wrong row is left out alone, in place of the whole table.
     pub apart: bool,
+    /// Whether columns of words may hold numbers, as those do that `givens partition` has left as they were written.
+    pub in_words: bool,
 }
 
 impl Default for How {
     fn default() -> Self {
-        Self { measured: true, held: HELD, apart: false }
+        Self { measured: true, held: HELD, apart: false, in_words: true }
     }
 }
 
@@ -94,8 +96,10 @@ pub(super) struct Reading {
     kind: Option<Time>,
     /// Rows so far, those that were wrong among them.
     rows: usize,
-    /// Whether names of tracks are whole numbers.
-    pub whole_ids: bool,
+    /// What names of tracks are.
+    pub ids: Ids,
+    /// Whether times are dates where no row has told their kind.
+    pub dates: bool,
     ranges: Vec<Option<[f64; 2]>>,
     /// Rows that were not written to the disk.
     held: usize,
@@ -114,7 +118,8 @@ impl Reading {
             known: HashMap::new(),
             kind: None,
             rows: 0,
-            whole_ids: false,
+            ids: Ids::Words,
+            dates: scheme.epoch.is_some(),
             ranges,
             held: 0,
             how,
@@ -222,14 +227,16 @@ impl Reading {
         let (scheme, refused) = (self.scheme, self.refused);
         let (has_track_id, has_sensor) = (self.columns.track.is_some(), self.columns.sensor.is_some());
         let (ignored, ranges) = (self.columns.ignored, self.ranges);
-        let whole_ids = self.whole_ids;
+        let ids = self.ids;
+        let dated = self.kind.map_or(self.dates, |time| matches!(time, Time::Calendar(_)));
         Some(Tracks {
             scheme,
             tracks,
             refused,
             ignored,
             has_track_id,
-            whole_ids,
+            ids,
+            dated,
             has_sensor,
             ranges,
             fingerprint,

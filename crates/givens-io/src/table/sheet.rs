@@ -29,12 +29,12 @@ pub(super) struct Fields<'s> {
 }
 
 impl<'a> Sheet<'a> {
-    /// Reads the header; an empty text is found wrong.
-    pub fn open(findings: &'a Findings<'a>, columns: &str) -> Option<Self> {
+    /// Reads the header; an empty text is found wrong, and a name that stands twice if it is one that is `read`.
+    pub fn open(findings: &'a Findings<'a>, columns: &str, read: impl Fn(&str) -> bool) -> Option<Self> {
         let source = findings.source;
         let mut reader = reader(source);
         let mut record = csv::StringRecord::new();
-        if source.text.trim().is_empty() || !read(&mut reader, &mut record) {
+        if source.text.trim().is_empty() || !record_of(&mut reader, &mut record) {
             let help = format!("the first line names the columns: {columns}");
             findings.push(source.whole("the table is empty").with_help(help));
             return None;
@@ -43,7 +43,7 @@ impl<'a> Sheet<'a> {
         let start = start_of(source, &record);
         let used = reader.position().byte() as usize;
         let sheet = Self { findings, header, start, reader, record, goes_on: false, used };
-        sheet.duplicates();
+        sheet.duplicates(read);
         Some(sheet)
     }
 
@@ -79,9 +79,9 @@ impl<'a> Sheet<'a> {
         self.header.iter().position(|other| other == name)
     }
 
-    fn duplicates(&self) {
+    fn duplicates(&self, read: impl Fn(&str) -> bool) {
         let mut seen = std::collections::HashMap::new();
-        for (column, name) in self.header.iter().enumerate().filter(|(_, name)| !name.is_empty()) {
+        for (column, name) in self.header.iter().enumerate().filter(|(_, name)| read(name)) {
             if let Some(first) = seen.insert(name.as_str(), column) {
                 let message =
                     format!("the column `{name}` stands twice: columns {} and {}", first + 1, column + 1);
@@ -93,7 +93,7 @@ impl<'a> Sheet<'a> {
     /// The next row with as many fields as the header; others are found wrong and passed over.
     pub fn next_row(&mut self) -> Option<Fields<'_>> {
         loop {
-            let is_read = read(&mut self.reader, &mut self.record);
+            let is_read = record_of(&mut self.reader, &mut self.record);
             let end = self.reader.position().byte() as usize;
             if !is_read || self.goes_on && end >= self.findings.source.text.len() {
                 return None;
@@ -134,7 +134,7 @@ fn reader(source: &Source) -> csv::Reader<&[u8]> {
 }
 
 /// Reads one record. The text is UTF-8 and rows may have any length, so nothing else can end it but its end.
-fn read(reader: &mut csv::Reader<&[u8]>, record: &mut csv::StringRecord) -> bool {
+fn record_of(reader: &mut csv::Reader<&[u8]>, record: &mut csv::StringRecord) -> bool {
     reader.read_record(record).unwrap_or(false)
 }
 

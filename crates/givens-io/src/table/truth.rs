@@ -55,7 +55,9 @@ fn read(source: &Source, model: &Model, tracks: &Tracks) -> Result<Truth, InputE
 }
 
 fn truth(findings: &Findings, model: &Model, tracks: &Tracks) -> Option<Truth> {
-    let mut sheet = Sheet::open(findings, "time and the states")?;
+    let mut sheet = Sheet::open(findings, "time and the states", |name| {
+        ["time", "track_id"].contains(&name) || model.states.iter().any(|state| state == name)
+    })?;
     let time_column = header::time(&sheet);
     let columns: Vec<Option<usize>> = model.states.iter().map(|name| sheet.column(name)).collect();
     if columns.iter().all(Option::is_none) {

@@ -43,7 +43,7 @@ fn a_wrong_header_is_told() {
                 "the column `px` stands twice: columns 3 and 4",
                 "rename or remove",
             ),
-            ("time,u_a,px,c,\"c\"\n1,2,3,4,5\n", (1, 15), "the column `c` stands twice", ""),
+            ("time,u_a,px,c,\"px\"\n1,2,3,4,5\n", (1, 15), "the column `px` stands twice", ""),
         ],
     );
     let (table, model) = ("time;px\n1;2\n", changed("[dynamics]", ""));

@@ -9,14 +9,16 @@ use std::time::Instant;
 use arrow_array::RecordBatchIterator;
 use arrow_array::ffi_stream::FFI_ArrowArrayStream;
 use givens::Goal;
-use givens_io::{Answer, AnswerWriter, Destination, FailedTrack, Format, Layout, LentAnswers, Part};
+use givens_io::{
+    Answer, AnswerWriter, Destination, FailedTrack, Format, Layout, LentAnswers, Part, portions,
+};
 use numpy::PyReadonlyArrayDyn;
 use pyo3::exceptions::PyOSError;
 use pyo3::prelude::*;
 use pyo3::types::{PyCapsule, PyDict};
 
 use super::TrackTable;
-use super::portion::{Beginnings, Come, Run, log_likelihood, portions};
+use super::portion::{Beginnings, Come, Run, log_likelihood};
 use crate::arrow::import::STREAM;
 use crate::choice::Choice;
 use crate::crowd::threads;
@@ -84,9 +86,10 @@ impl TrackTable {
     }
 
     /// The portions: all at once where the rows of tracks do not stand together.
-    fn portions(&self) -> Vec<Range<usize>> {
+    fn portions(&self, goal: Goal) -> Vec<Range<usize>> {
         if self.tracks.in_turn() {
-            return portions(&self.tracks);
+            let all = portions(&self.tracks.tracks, |_| goal);
+            return all.into_iter().map(|portion| portion.tracks).collect();
         }
         vec![Range { start: 0, end: self.tracks.tracks.len() }]
     }
@@ -108,7 +111,7 @@ impl TrackTable {
     ) -> Result<Bound<'py, PyCapsule>> {
         let answers = LentAnswers::new(writer, &self.batches);
         let mut batches = Vec::new();
-        for portion in self.portions() {
+        for portion in self.portions(run.goal) {
             let come = run.portion(py, &self.tracks.tracks[portion.clone()], &beginnings[portion.clone()])?;
             let parts = self.parts(portion, &come.answers);
             batches.push(py.detach(|| answers.rows(&parts)).map_err(unwritten)?);
@@ -136,7 +139,7 @@ impl TrackTable {
         let failed = |error: &dyn Display| Refusal::Raised(PyOSError::new_err(error.to_string()));
         let mut out = Destination::shared(path).map_err(|error| failed(&error))?;
         let mut answers = writer.begin(&mut out).map_err(|error| failed(&error))?;
-        for portion in self.portions() {
+        for portion in self.portions(run.goal) {
             let come = run.portion(py, &self.tracks.tracks[portion.clone()], &beginnings[portion.clone()])?;
             let parts = self.parts(portion, &come.answers);
             py.detach(|| answers.rows(&mut out, &parts)).map_err(|error| failed(&error))?;

@@ -1,12 +1,10 @@
 //! Some of the tracks of a table, and what comes of them.
 
-use core::ops::Range;
-
 use givens::explain::Told;
 use givens::filter::Fault;
 use givens::registry::Choice;
-use givens::{Data, DataError, Estimates, Goal, Outcome};
-use givens_io::{Answer, Beginning, FailedTrack, PORTION, Track, Tracks};
+use givens::{Estimates, Goal, Outcome};
+use givens_io::{Answer, Beginning, FailedTrack, Track, Unread};
 use pyo3::prelude::*;
 
 use crate::crowd::each;
@@ -33,22 +31,6 @@ pub struct Run<'a> {
 pub struct Come {
     pub answers: Vec<Answer>,
     pub failed: Vec<FailedTrack>,
-}
-
-/// The tracks in portions, in their order.
-pub fn portions(tracks: &Tracks) -> Vec<Range<usize>> {
-    let (mut portions, mut rows): (Vec<Range<usize>>, usize) = (Vec::new(), 0);
-    for (i, track) in tracks.tracks.iter().enumerate() {
-        let open = portions.last_mut().filter(|last| rows < PORTION.0 || last.len() < PORTION.1);
-        if let Some(last) = open {
-            last.end = i + 1;
-        } else {
-            portions.push(i..i + 1);
-            rows = 0;
-        }
-        rows += track.rows.len();
-    }
-    portions
 }
 
 impl Run<'_> {
@@ -111,16 +93,11 @@ impl Run<'_> {
 
     /// The rows of a track from its beginning on.
     fn job(&self, track: &Track, begin: &Beginning) -> core::result::Result<Job, String> {
-        let (d, controls) = (self.model.measures(), self.model.controls());
-        let mut data = Data::with_controls(d, controls).starting_at(begin.time);
-        let empty = vec![f64::NAN; d];
-        let rows = track.rows.read(begin.row..track.rows.len()).map_err(|error| error.to_string())?;
-        for (k, row) in rows.iter().enumerate() {
-            // what `start` has read is not used again
-            let z = if begin.started && k == 0 { &empty } else { &row.z };
-            data.push_controlled(row.time, z, &row.u)
-                .map_err(|error: DataError| format!("row {}: {error}", row.index + 1))?;
-        }
+        let widths = (self.model.measures(), self.model.controls());
+        let data = track.data(widths, begin, 0..track.rows.len()).map_err(|unread| match unread {
+            Unread::Lost(error) => error.to_string(),
+            Unread::Wrong(row, error) => format!("row {}: {error}", row.index + 1),
+        })?;
         let (model, prior) = (self.model.clone(), begin.prior.clone());
         Ok(Job { model, choice: self.choice, prior, data, goal: self.goal, at: None })
     }

@@ -39,7 +39,8 @@ fn scheme(model: &Model, names: Option<Names>) -> Result<Scheme> {
         next = measures.end;
         sensors.push(Sensor { name, measures, columns, angles });
     }
-    Ok(Scheme { states, controls, sensors, time, epoch: None, step, fingerprint })
+    let late = "give a `t0` that is the first row's or earlier, or leave it out";
+    Ok(Scheme { states, controls, sensors, time, late, epoch: None, step, fingerprint })
 }
 
 #[pymethods]
@@ -51,9 +52,11 @@ impl TrackTable {
         let (stream, scheme) = (taken(capsule)?, scheme(model, names)?);
         py.detach(move || {
             let wrong = |error: &dyn core::fmt::Display| {
-                Input::plain(format!("the table could not be read: {error}"))
+                Input::new("table", format!("the table could not be read: {error}"))
             };
-            let reader = RecordBatchStreamReader::try_new(stream).map_err(|error| wrong(&error))?;
+            let reader = RecordBatchStreamReader::try_new(stream).map_err(|error| {
+                wrong(&error).help("give a table, with columns that have names; an array or a column is none")
+            })?;
             let schema = reader.schema();
             let batches =
                 reader.collect::<core::result::Result<Vec<_>, _>>().map_err(|error| wrong(&error))?;

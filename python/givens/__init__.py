@@ -17,7 +17,7 @@ from givens import _native
 from givens.batch import Batch
 from givens.comparison import Compared, Comparison, compare
 from givens.consistency import Consistency
-from givens.errors import GivensError, InputError, MethodError, ModelError, StepError, TraceError
+from givens.errors import DoubtWarning, GivensError, InputError, MethodError, ModelError, StepError, TraceError
 from givens.estimates import Estimates
 from givens.gaussian import Gaussian
 from givens.job import BatchJob, FailedTrack, FileJob, Summary, split_errors
@@ -38,6 +38,7 @@ __all__ = [
     "Compared",
     "Comparison",
     "Consistency",
+    "DoubtWarning",
     "Estimates",
     "FailedTrack",
     "FileJob",

@@ -38,6 +38,8 @@ VERSION: Final[str]
 _Array = NDArray[np.float64]
 _Kind = Literal["discrete", "continuous"]
 _Column = Literal["number", "whole", "date", "zoned", "duration", "text", "other"]
+# track, row, time, what is doubtful, and how many rows are for that reason
+_Doubt = tuple[int, int, float, str, int]
 _Goal = Literal["filter", "interval", "lag", "point"]
 # states, columns of controls, sensors with their measures, when the prior holds, the length of a step, the model's sum
 _Names = tuple[list[str], list[str], list[tuple[str, list[str]]], float | None, float | None, str]
@@ -116,6 +118,7 @@ class _Answered(TypedDict):
     log_likelihood: float
     seconds: float
     failed: list[tuple[str | None, str | None, str]]
+    doubts: list[str]
 
 class _Tracks(TypedDict):
     tracks: list[_Track]
@@ -471,6 +474,10 @@ class Estimates:
     def failure(self) -> _Failure | None:
         """Why the run ended before its last row; the rows before stand in the arrays."""
 
+    @property
+    def doubts(self) -> list[_Doubt]:
+        """What is doubtful about it; of a batch its own list is of all tracks."""
+
 class _Snapshot(TypedDict):
     time: float
     step: int
@@ -577,11 +584,11 @@ def run_batch(
     goal: _Goal = "filter",
     goal_value: float | None = None,
     threads: int | None = None,
-) -> list[Estimates]:
+) -> tuple[list[Estimates], list[_Doubt]]:
     """Runs tracks (model, choice, mean, cov, t0, time, z, u, at), each as `run` does, on threads.
 
     An estimate does not depend on the other tracks, nor on the number of threads. A track that fails says so in its own
-    `failure`. Models with functions of Python run on one thread.
+    `failure`. Models with functions of Python run on one thread. Besides the estimates: what is doubtful about them.
     """
 
 def sample(

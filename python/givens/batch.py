@@ -11,6 +11,7 @@ import numpy.typing as npt
 from givens import _native
 from givens._arrays import Array
 from givens._by_track import near_track
+from givens._doubts import doubtful, warn
 from givens._in_track import tell, told_by_number
 from givens._memory import room
 from givens._plan import Goal, Track, refuse_at
@@ -45,6 +46,9 @@ class Batch(Stacked):
         Names.
     failed : list of StepError
         Those that ended early; each names its track.
+    doubts : tuple of str
+        Why rows may be wrong that no step has refused, each also told as a `DoubtWarning`. Of all tracks, once for each
+        reason; a part of a batch has none.
     track_ids : list
         Names of the tracks, or their numbers.
 
@@ -64,9 +68,12 @@ class Batch(Stacked):
 
     # no `collections.abc.Sequence`: polars would take one apart before it asks for `__arrow_c_stream__`
 
-    def __init__(self, estimates: Sequence[Estimates], failed: Sequence[StepError] = ()) -> None:
+    def __init__(
+        self, estimates: Sequence[Estimates], failed: Sequence[StepError] = (), doubts: Sequence[str] = ()
+    ) -> None:
         self._estimates = tuple(estimates)
         self.failed = list(failed)
+        self.doubts = tuple(doubts)
         self.track_ids = [k if one.track_id is None else one.track_id for k, one in enumerate(self._estimates)]
 
     @classmethod
@@ -77,6 +84,7 @@ class Batch(Stacked):
                 refuse_at(goal)
         times = [None if at is None else track.clock.wanted("at", at) for track in tracks]
         found: list[Any] = [None] * len(tracks)
+        doubts: list[str] = []
         alike: dict[Goal, list[int]] = {}
         for k, goal in enumerate(goals):
             alike.setdefault(goal, []).append(k)
@@ -86,7 +94,7 @@ class Batch(Stacked):
         ]
         for goal, these in alike.items():
             try:
-                natives = _native.run_batch([jobs[k] for k in these], goal.word, goal.value, threads)
+                natives, doubtfuls = _native.run_batch([jobs[k] for k in these], goal.word, goal.value, threads)
             except InputError as refusal:
                 number = told_by_number(refusal)
                 if number is not None:
@@ -95,13 +103,17 @@ class Batch(Stacked):
                 raise
             for k, native in zip(these, natives, strict=True):
                 found[k] = native
+            for doubt in doubtfuls:
+                k = these[doubt[0]]
+                doubts.append(doubtful(tracks[k], doubt, k if tracks[k].id is None else tracks[k].id))
         estimates, failed = [], []
         for k, (track, native, goal, wanted) in enumerate(zip(tracks, found, goals, times, strict=True)):
             error = step_error(track, native, goal, k if track.id is None else track.id)
             if error is not None:
                 failed.append(error)
             estimates.append(Estimates._of(track, native, goal, wanted, error))
-        return cls(estimates, failed)
+        warn(doubts)
+        return cls(estimates, failed, doubts)
 
     @overload
     def __getitem__(self, index: int) -> Estimates: ...

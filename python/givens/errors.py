@@ -11,7 +11,15 @@ from __future__ import annotations
 
 from typing import Any
 
-__all__ = ["GivensError", "InputError", "MethodError", "ModelError", "StepError", "TraceError"]
+__all__ = ["DoubtWarning", "GivensError", "InputError", "MethodError", "ModelError", "StepError", "TraceError"]
+
+
+class DoubtWarning(UserWarning):
+    """Answers that may be wrong, though no step of the filter has refused them: its steps of equal length were too long, or a
+    measurement has left of a covariance only what is rounding. The words say which, where, and what to do about it.
+
+    Whoever would rather have an exception turns it into one: ``warnings.simplefilter("error", gv.DoubtWarning)``.
+    """
 
 
 class GivensError(Exception):

@@ -10,6 +10,7 @@ import numpy.typing as npt
 from givens import _native
 from givens._arrays import Array, frozen
 from givens._clock import Times
+from givens._doubts import doubtful, place_of
 from givens._plan import Goal, Track, refuse_at
 from givens._sampling import draws
 from givens._scalars import seed_of, whole
@@ -61,6 +62,9 @@ class Estimates:
         Whether `mean` and `cov` are smoothed ones.
     failed : StepError or None
         Why the rows end before those of the data.
+    doubts : tuple of str
+        Why rows may be wrong that no step has refused, each also told as a `DoubtWarning`; those of a batch are in
+        `Batch.doubts`.
 
     Examples
     --------
@@ -94,6 +98,7 @@ class Estimates:
     method: str
     is_smoothed: bool
     failed: StepError | None
+    doubts: tuple[str, ...]
     track_id: Any
 
     def __init__(self) -> None:
@@ -122,6 +127,7 @@ class Estimates:
             "is_smoothed": found.smoothed,
         }
         fields |= {"state": track.joined.states, "measures": track.joined.measures, "method": track.choice.title}
+        fields["doubts"] = tuple(doubtful(track, doubt) for doubt in native.doubts)
         fields |= {"failed": failed, "track_id": track.id, "_track": track, "_goal": goal}
         # other times have no measurements: what is said of all of them is said of the rows
         rows = found if at is None else native
@@ -302,10 +308,7 @@ def step_error(track: Track, native: _native.Estimates, goal: Goal, name: Any = 
     message, row = fields.pop("message"), fields["row"]
     if row is not None:
         row = fields["row"] = row + track.before
-    shown = track.clock.shown(np.array([fields["time"]]))[0]
-    place = f"t = {shown:g}" if track.clock.origin is None else f"{shown}"
-    place = place if row is None else f"row {row}, {place}"
-    place = place if name is None else f"track {name}, {place}"
+    place = place_of(track, row, fields["time"], name)
     error = StepError(f"{place}: {message}", track=name, **fields)
     error.finished = Estimates._of(track, native, goal, None, error)
     return error

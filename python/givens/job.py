@@ -14,6 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from givens import _native
+from givens._doubts import warn
 from givens._join import Joined, join
 from givens._lazy import wanted
 from givens._method import choose
@@ -287,6 +288,7 @@ class BatchJob(Sent):
         capsule, said = table.answers(
             joined.native, choice, goal.word, goal.value, self.output, prior, unbegun, self.threads, path
         )
+        warn(said["doubts"] if path is None else [f"{path}: {doubt}" for doubt in said["doubts"]])
         failed = tuple(_failed(*track, file=path) for track in said["failed"])
         return capsule, Summary(said["tracks"], said["rows"], said["log_likelihood"], failed, said["seconds"], 1)
 

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from givens._doubts import warn
 from givens._plan import Goal, Track, plan, refuse_at
 from givens._scalars import shown, threads_of
 from givens.batch import Batch
@@ -95,6 +96,11 @@ def filter(
     StepError
         For a step that fails; its `finished` holds the rows before. In a batch, other tracks go on, and `Batch.failed`
         lists those that did not.
+
+    Warns
+    -----
+    DoubtWarning
+        Of answers that may be wrong though no step has failed; `Estimates.doubts` holds the words.
 
     Examples
     --------
@@ -196,4 +202,6 @@ def _run(tracks: list[Track], batch: bool, goals: list[Goal], at: Any, threads: 
     error = step_error(track, native, goal)
     if error is not None:
         raise error
-    return Estimates._of(track, native, goal, wanted)
+    estimates = Estimates._of(track, native, goal, wanted)
+    warn(estimates.doubts)
+    return estimates

@@ -7,6 +7,7 @@ use numpy::{PyArray1, PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
+use crate::doubts::Doubt;
 use crate::failure::{self, At};
 use crate::model::Model;
 use crate::numbers::{counts, frozen};
@@ -37,6 +38,7 @@ pub struct Estimates {
     smoothed: bool,
     at: Option<Py<Estimates>>,
     failure: Option<Py<PyDict>>,
+    doubts: Vec<Doubt>,
 }
 
 impl Estimates {
@@ -73,11 +75,18 @@ impl Estimates {
             smoothed,
             at: None,
             failure: None,
+            doubts: Vec::new(),
         })
     }
 
-    /// What came of a run; with `at` if other times were asked for.
-    pub fn of(py: Python<'_>, outcome: Outcome, model: &Model, choice: &Choice, at: bool) -> PyResult<Self> {
+    /// What came of a run, and what is doubtful about it; with `at` if other times were asked for.
+    pub fn of(
+        py: Python<'_>,
+        outcome: Outcome,
+        doubts: Vec<Doubt>,
+        (model, choice): (&Model, &Choice),
+        at: bool,
+    ) -> PyResult<Self> {
         let (n, d) = (model.states(), model.measures());
         let Outcome { estimates, failure, at: there, log_likelihood, failed_at } = outcome;
         let failure = failure.as_ref().map(|(row, error): &(usize, StepError)| {
@@ -87,7 +96,7 @@ impl Estimates {
         let there = at.then(|| Py::new(py, Self::of_rows(py, there, n, d)?));
         let own = Self::of_rows(py, estimates, n, d)?;
         let (at, failure) = (there.transpose()?, failure.transpose()?);
-        Ok(Self { at, failure, total_log_likelihood: log_likelihood, ..own })
+        Ok(Self { at, failure, doubts, total_log_likelihood: log_likelihood, ..own })
     }
 }
 

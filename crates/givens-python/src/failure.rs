@@ -19,11 +19,15 @@ pub struct At<'a> {
     pub mean: &'a [f64],
 }
 
-pub fn told<'a>(model: &'a Model, choice: Option<&Choice>, fault: &Fault) -> Told {
+pub fn told(model: &Model, choice: Option<&Choice>, fault: &Fault) -> Told {
+    explained(model, |explain| explain.told(choice, fault))
+}
+
+/// Says something in the names of the model.
+pub fn explained<'a>(model: &'a Model, say: impl FnOnce(&Explain) -> Told) -> Told {
     let names = |of: &'a [String]| -> Vec<&str> { of.iter().map(String::as_str).collect() };
     let (states, measures) = (names(&model.known.states), names(&model.known.measures));
-    let explain = Explain { face: Face::Python, kind: model.kind(), states: &states, measures: &measures };
-    explain.told(choice, fault)
+    say(&Explain { face: Face::Python, kind: model.kind(), states: &states, measures: &measures })
 }
 
 /// The kind of a fault, in a word.

@@ -5,6 +5,7 @@
 mod arrow;
 mod choice;
 mod crowd;
+mod doubts;
 mod errors;
 mod estimates;
 mod failure;

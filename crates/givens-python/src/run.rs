@@ -8,6 +8,7 @@ use pyo3::prelude::*;
 
 use crate::choice::Choice;
 use crate::crowd::{Ended, aside, each, threads};
+use crate::doubts::{self, Doubt};
 use crate::errors::Result;
 use crate::estimates::Estimates;
 use crate::failure::noted;
@@ -69,8 +70,14 @@ impl Job {
         }
     }
 
-    fn estimates(&self, py: Python<'_>, outcome: Outcome) -> PyResult<Estimates> {
-        Estimates::of(py, outcome, &self.model, &self.choice, self.at.is_some())
+    /// What came of it, with what is doubtful about it alone.
+    fn estimates(&self, py: Python<'_>, outcome: Outcome) -> Result<Estimates> {
+        let doubts = doubts::of(py, core::slice::from_ref(self), core::slice::from_ref(&outcome))?;
+        Ok(self.with(py, outcome, doubts)?)
+    }
+
+    fn with(&self, py: Python<'_>, outcome: Outcome, doubts: Vec<Doubt>) -> PyResult<Estimates> {
+        Estimates::of(py, outcome, doubts, (&self.model, &self.choice), self.at.is_some())
     }
 }
 
@@ -100,13 +107,13 @@ pub fn run(
             let outcome = job.run();
             (job, outcome)
         })?;
-        return Ok(job.estimates(py, outcome)?);
+        return job.estimates(py, outcome);
     }
     let (outcome, raised) = detached(py, || job.run());
     if let Some(raised) = raised {
         return Err(at_row(py, raised, outcome).into());
     }
-    Ok(job.estimates(py, outcome)?)
+    job.estimates(py, outcome)
 }
 
 /// Model, choice, mean, cov, t0, time, z, u, at.
@@ -131,7 +138,7 @@ pub fn run_batch<'py>(
     goal: &str,
     goal_value: Option<f64>,
     threads: Option<usize>,
-) -> Result<Vec<Estimates>> {
+) -> Result<(Vec<Estimates>, Vec<Doubt>)> {
     let of = |(k, track): (usize, &Track<'py>)| {
         let (model, choice, mean, cov, t0, time, z, u, at) = track;
         let data = (time, z, u.as_ref());
@@ -145,8 +152,7 @@ pub fn run_batch<'py>(
     // also of a single track: it is the same in any batch
     if alike(&jobs) {
         let outcomes = packs::run(py, &jobs, self::threads(threads)?)?;
-        let all = jobs.iter().zip(outcomes).map(|(job, outcome)| job.estimates(py, outcome));
-        return Ok(all.collect::<PyResult<Vec<_>>>()?);
+        return together(py, &jobs, outcomes);
     }
     // one thread has the interpreter at a time: several would only wait for each other
     let alone = jobs.iter().any(|job| job.model.needs_python());
@@ -156,8 +162,14 @@ pub fn run_batch<'py>(
         Some((k, outcome)) => in_track(py, k, at_row(py, raised, outcome)),
         None => raised,
     })?;
-    let all = jobs.iter().zip(outcomes).map(|(job, outcome)| job.estimates(py, outcome));
-    Ok(all.collect::<PyResult<Vec<_>>>()?)
+    together(py, &jobs, outcomes)
+}
+
+/// What came of several, and what is doubtful about them.
+fn together(py: Python<'_>, jobs: &[Job], outcomes: Vec<Outcome>) -> Result<(Vec<Estimates>, Vec<Doubt>)> {
+    let doubts = doubts::of(py, jobs, &outcomes)?;
+    let all = jobs.iter().zip(outcomes).map(|(job, outcome)| job.with(py, outcome, Vec::new()));
+    Ok((all.collect::<PyResult<Vec<_>>>()?, doubts))
 }
 
 /// Notes on an exception of the user's at which row it was raised.

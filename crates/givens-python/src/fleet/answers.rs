@@ -159,18 +159,20 @@ struct Sum {
     rows: usize,
     log_likelihood: f64,
     failed: Vec<FailedTrack>,
+    doubts: Vec<String>,
     begun: Instant,
 }
 
 impl Sum {
     fn new() -> Self {
-        Self { rows: 0, log_likelihood: 0.0, failed: Vec::new(), begun: Instant::now() }
+        Self { rows: 0, log_likelihood: 0.0, failed: Vec::new(), doubts: Vec::new(), begun: Instant::now() }
     }
 
     fn add(&mut self, come: Come) {
         self.rows += come.answers.iter().map(|answer| answer.estimates.len()).sum::<usize>();
         self.log_likelihood += log_likelihood(&come.answers);
         self.failed.extend(come.failed);
+        self.doubts.extend(come.doubts);
     }
 
     fn said(self, py: Python<'_>, tracks: usize) -> PyResult<Bound<'_, PyDict>> {
@@ -181,6 +183,7 @@ impl Sum {
         said.set_item("seconds", self.begun.elapsed().as_secs_f64())?;
         let failed = self.failed.into_iter().map(|track| (track.id, track.time_text, track.message));
         said.set_item("failed", failed.collect::<Vec<_>>())?;
+        said.set_item("doubts", self.doubts)?;
         Ok(said)
     }
 }

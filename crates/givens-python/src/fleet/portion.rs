@@ -8,6 +8,7 @@ use givens_io::{Answer, Beginning, FailedTrack, Track, Unread};
 use pyo3::prelude::*;
 
 use crate::crowd::each;
+use crate::doubts;
 use crate::errors::Result;
 use crate::failure::{told, word};
 use crate::model::Model;
@@ -31,6 +32,8 @@ pub struct Run<'a> {
 pub struct Come {
     pub answers: Vec<Answer>,
     pub failed: Vec<FailedTrack>,
+    /// What is doubtful about them, in words.
+    pub doubts: Vec<String>,
 }
 
 impl Run<'_> {
@@ -66,7 +69,12 @@ impl Run<'_> {
             let outcomes = each(py, jobs.len(), self.threads, |k| jobs[k].run());
             outcomes.map_err(|ended| ended.raised)?.into_iter().map(|outcome| (outcome, None)).collect()
         };
-        for ((i, begin), (outcome, raised)) in of.into_iter().zip(outcomes) {
+        let (outcomes, raised): (Vec<Outcome>, Vec<Option<PyErr>>) = outcomes.into_iter().unzip();
+        for (k, row, time, message, count) in doubts::of(py, &jobs, &outcomes)? {
+            let (track, begin) = (&tracks[of[k].0], of[k].1);
+            come.doubts.push(doubtful(track, begin.row + row, time, &message, count));
+        }
+        for ((i, begin), (outcome, raised)) in of.into_iter().zip(outcomes.into_iter().zip(raised)) {
             let Outcome { estimates, failure, .. } = outcome;
             let track = &tracks[i];
             if let Some((row, error)) = failure {
@@ -101,6 +109,15 @@ impl Run<'_> {
         let (model, prior) = (self.model.clone(), begin.prior.clone());
         Ok(Job { model, choice: self.choice, prior, data, goal: self.goal, at: None })
     }
+}
+
+/// A doubt in words, and its place.
+fn doubtful(track: &Track, row: usize, time: f64, message: &str, rows: usize) -> String {
+    let id = track.id.as_ref().map_or_else(String::new, |id| format!("track {id}, "));
+    let index = track.rows.row(row).ok().flatten().map_or(row, |row| row.index);
+    let more =
+        if rows > 1 { format!(" (the same of {rows} rows that were looked at)") } else { String::new() };
+    format!("{id}row {}, t = {}: {message}{more}", index + 1, track.time_text(time))
 }
 
 /// Runs that call functions of Python, with the exception that ended each if one did.

@@ -88,6 +88,11 @@ impl Sink {
         Destination::shared(path).map(Self::File).map_err(|error| Stop::input(error.to_string()))
     }
 
+    /// Opens the file of one table, which among those of `several` is shared: two runs over the same files may be at work.
+    pub fn among(path: Option<&Path>, several: bool) -> Result<Self, Stop> {
+        path.filter(|_| several).map_or_else(|| Self::open(path), Self::shared)
+    }
+
     /// Opens a file that another run may go on with, behind what one has left.
     pub fn resumed(path: &Path, left: Written) -> Result<Self, Stop> {
         Destination::resumed(path, left).map(Self::File).map_err(|error| {

@@ -167,7 +167,7 @@ fn together(
     if !done.is_empty() {
         say(GOES_ON);
     }
-    let mut sink = Sink::open(target.output)?;
+    let mut sink = Sink::among(target.output, manner.counted.is_some())?;
     let session = Session::hold(plan, &plan.choice, goals, manner, done, kept.as_mut())?;
     let times = manner.at.map(|at| at.tracks(plan));
     let answers = if times.is_some() { &session.at } else { &session.answers };
@@ -182,7 +182,7 @@ fn in_turn(plan: &Plan, goals: &[Goal], manner: Manner, target: &Target) -> Resu
     let times = manner.at.map(|at| at.tracks(plan));
     let tracks = times.as_ref().unwrap_or(&plan.tracks);
     let writer = target.writer(plan, tracks, goals, manner);
-    let mut sink = Sink::open(target.output)?;
+    let mut sink = Sink::among(target.output, manner.counted.is_some())?;
     let mut session = None;
     sink.fill(|out| {
         let mut all = writer.begin(out)?;

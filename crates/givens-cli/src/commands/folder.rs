@@ -72,6 +72,10 @@ pub fn run(
     one: impl Fn(&FilterArgs, &AtomicUsize) -> Result<Done, Stop> + Sync,
 ) -> Result<(), Stop> {
     let folder = folder(args)?;
+    if let Some(file) = files.iter().find(|file| file.to_str().is_none()) {
+        let stop = Stop::input(format!("{}: the name of this file is not UTF-8", file.display()));
+        return Err(stop.help("rename it"));
+    }
     for (given, option) in [
         (args.truth.is_some(), "--truth"),
         (!args.plots.is_empty(), "--plot"),

@@ -73,6 +73,10 @@ fn what_is_wrong_with_a_table_is_told_by_row_and_column() {
     // a bit of its footer was turned: a chunk begins before the file
     let damaged = told("damaged.parquet");
     assert!(damaged.contains("damaged.parquet: this Parquet file cannot be read"), "{damaged}");
+    let gzip = told("gzip.parquet");
+    assert!(gzip.contains("gzip.parquet: `z` is compressed by gzip\n  help: write it anew"), "{gzip}");
+    let cut = folder.run("partition gzip.parquet --by track_id -o gzip");
+    assert!(cut.code == 2 && cut.stderr.contains("is compressed by gzip"), "{}", cut.stderr);
     let other = folder.run("filter model.toml dates.parquet");
     assert!(other.stderr.contains("dates.parquet:1:1: the table has no"), "{}", other.stderr);
     assert!(other.stderr.contains("1 | time,track_id,z,note"), "{}", other.stderr);

@@ -1,13 +1,14 @@
 //! Many files: cut by tracks, run one by one, gone on with.
 
-use super::common::Folder;
 use super::common::models::WALK;
+use super::common::{Folder, Run};
 use super::folder;
 use core::fmt::Write;
 use core::time::Duration;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
+use std::process::Stdio;
 use std::thread::sleep;
 
 /// Rows of so many tracks, mixed, of different lengths, some without a measure.
@@ -239,4 +240,52 @@ fn a_run_over_files_that_is_killed_is_gone_on_with() {
         assert!(fs::read(own).unwrap() == fs::read(file.path()).unwrap(), "{}", file.path().display());
     }
     assert!(!folder.path("out/run.checkpoint").exists());
+}
+
+#[test]
+fn a_table_that_cannot_be_cut_leaves_nothing_behind_and_tells_which_folder_is_full() {
+    let folder = folder("full");
+    folder.write("ships.csv", &table(9, 9));
+    let args = ["partition", "ships.csv", "--by", "track_id", "--rows", "20", "-o", "parts"];
+    let told: Run = folder.command(&args).env("TMPDIR", folder.path("gone")).output().unwrap().into();
+    assert!(told.code == 2 && told.stderr.contains("gone: rows cannot be held in this folder meanwhile"));
+    assert!(told.stderr.contains("set TMPDIR"), "{}", told.stderr);
+    // what stands in the way of the second file
+    let block = folder.path("parts/part-00001.parquet.unfinished");
+    fs::create_dir_all(&block).unwrap();
+    let told = folder.run_args(&args);
+    assert!(told.code == 2 && told.stderr.contains("parts: cannot be written"), "{}", told.stderr);
+    assert_eq!(fs::read_dir(folder.path("parts")).unwrap().count(), 1);
+    fs::remove_dir(&block).unwrap();
+    folder.run_args(&args).good();
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_file_whose_name_is_no_text_is_told() {
+    use std::os::unix::ffi::OsStrExt;
+    let folder = folder("names");
+    fs::create_dir(folder.path("data")).unwrap();
+    folder.write("data/a.csv", &table(2, 4));
+    let odd = folder.path("data").join(std::ffi::OsStr::from_bytes(b"b\xff.csv"));
+    fs::copy(folder.path("data/a.csv"), odd).unwrap();
+    let told = folder.run("filter walk.toml data -o out");
+    assert!(told.code == 2 && told.stderr.contains("the name of this file is not UTF-8\n  help: rename it"));
+    assert!(!folder.path("out").exists());
+}
+
+#[test]
+fn runs_over_the_same_files_at_once_all_end_well() {
+    let folder = folder("at_once");
+    folder.write("ships.csv", &table(23, 40));
+    folder.run("partition ships.csv --by track_id --rows 20 -o parts").good();
+    folder.run("filter walk.toml parts -o alone --format csv").good();
+    let args = ["filter", "walk.toml", "parts", "-o", "out", "--format", "csv"];
+    for _ in 0..5 {
+        let started: Vec<_> = (0..4).map(|_| folder.command(&args).stderr(Stdio::piped()).spawn()).collect();
+        for run in started {
+            Run::from(run.unwrap().wait_with_output().unwrap()).good();
+        }
+        assert_eq!(texts(&folder, "out"), texts(&folder, "alone"));
+    }
 }

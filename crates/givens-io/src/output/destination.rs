@@ -154,7 +154,12 @@ impl Destination {
         let done = done.and_then(|file| match &self.partial {
             Some(partial) => {
                 file.sync_all()?;
-                fs::rename(partial, &self.target)?;
+                fs::rename(partial, &self.target).map_err(|error| match error.kind() {
+                    io::ErrorKind::NotFound => {
+                        io::Error::other("another run has taken away what was written")
+                    }
+                    _ => error,
+                })?;
                 settle_name(&self.target);
                 Ok(())
             }

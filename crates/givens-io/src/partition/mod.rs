@@ -80,26 +80,47 @@ impl Partition {
         }
         let schema = self.called(&opened)?;
         let places = self.places(&opened)?;
-        for from in (0..places.files).step_by(TOGETHER) {
-            let files = from..(from + TOGETHER).min(places.files);
-            let spools =
-                self.spread(&opened, &schema, &places, files.clone()).map_err(|error| match error {
-                    Broken::Input(error) => error,
-                    Broken::Output(error) => failed(error),
-                })?;
-            for (file, spool) in files.zip(spools) {
-                let rows = read_back(spool).map_err(failed)?;
-                let rows =
-                    concat_batches(&schema, &rows).map_err(|error| failed(std::io::Error::other(error)))?;
-                let path = folder.join(unfinished(&name(file)));
-                sorted::write(&path, &rows, TRACK, &places.of).map_err(failed)?;
+        let written = self.fill(&opened, &schema, &places, folder);
+        if written.is_err() {
+            // nothing has its name yet: the folder may be cut into again
+            for file in 0..places.files {
+                let _ = std::fs::remove_file(folder.join(unfinished(&name(file))));
             }
         }
+        written?;
         for file in 0..places.files {
             let (from, to) = (folder.join(unfinished(&name(file))), folder.join(name(file)));
             std::fs::rename(from, to).map_err(failed)?;
         }
         Ok(Partitioned { files: places.files, tracks: places.of.len(), rows: places.rows })
+    }
+
+    /// Writes the files, under the names that they have until all are there.
+    fn fill(
+        &self,
+        opened: &[Table],
+        schema: &SchemaRef,
+        places: &Places,
+        folder: &Path,
+    ) -> Result<(), InputErrors> {
+        let failed = |error: std::io::Error| {
+            whole(&folder.display().to_string(), format!("cannot be written: {error}"))
+        };
+        for from in (0..places.files).step_by(TOGETHER) {
+            let files = from..(from + TOGETHER).min(places.files);
+            let spools = self.spread(opened, schema, places, files.clone()).map_err(|error| match error {
+                Broken::Input(error) => error,
+                Broken::Output(error) => meanwhile(&error),
+            })?;
+            for (file, spool) in files.zip(spools) {
+                let rows = read_back(spool).map_err(|error| meanwhile(&error))?;
+                let rows =
+                    concat_batches(schema, &rows).map_err(|error| failed(std::io::Error::other(error)))?;
+                let path = folder.join(unfinished(&name(file)));
+                sorted::write(&path, &rows, TRACK, &places.of).map_err(failed)?;
+            }
+        }
+        Ok(())
     }
 
     /// The columns that all tables have, with that of tracks under its usual name.
@@ -206,6 +227,13 @@ impl From<std::io::Error> for Broken {
     fn from(error: std::io::Error) -> Self {
         Self::Output(error)
     }
+}
+
+/// Rows that could not be held in a temporary file.
+fn meanwhile(error: &std::io::Error) -> InputError {
+    let folder = std::env::temp_dir();
+    whole(&folder.display().to_string(), format!("rows cannot be held in this folder meanwhile: {error}"))
+        .with_help("set TMPDIR to a folder with as much room as the tables take")
 }
 
 fn other(error: arrow_schema::ArrowError) -> std::io::Error {

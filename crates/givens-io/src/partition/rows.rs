@@ -13,7 +13,7 @@ use crate::error::InputError;
 use crate::findings::list;
 use crate::pages::{self, Pages};
 use crate::source::{unreadable, whole};
-use crate::table::{is_parquet, names_things, unreadable_parquet, whole_chunks};
+use crate::table::{is_parquet, names_things, unpackable, unreadable_parquet, whole_chunks};
 
 /// Rows that are decoded at once.
 const ROWS: usize = 1 << 16;
@@ -42,6 +42,7 @@ impl Table {
         let (schema, of) = if is_parquet(&mut file).map_err(|error| whole(&name, unreadable(&error)))? {
             let builder = pages::open(file).map_err(|error| unreadable_parquet(&name, &error))?;
             whole_chunks(&name, builder.metadata())?;
+            unpackable(&name, builder.metadata(), &ProjectionMask::all())?;
             (SchemaRef::clone(builder.schema()), Of::Parquet)
         } else {
             let types = csv::Types::of(&name, file, by)?;

@@ -20,7 +20,7 @@ mod truth;
 
 pub use batches::lent_tracks;
 pub(crate) use batches::names_things;
-pub(crate) use parquet::{MAGIC, broken as unreadable_parquet, is_parquet, whole_chunks};
+pub(crate) use parquet::{MAGIC, broken as unreadable_parquet, is_parquet, unpackable, whole_chunks};
 pub use rows::Rows;
 pub use time::Calendar;
 pub use truth::{Truth, parse_truth, read_truth};

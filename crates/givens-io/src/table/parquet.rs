@@ -5,6 +5,7 @@ use std::fs::File;
 use std::io::{Read, Seek};
 
 use parquet::arrow::ProjectionMask;
+use parquet::basic::Compression;
 use parquet::file::metadata::{ColumnChunkMetaData, ParquetMetaData, RowGroupMetaData};
 
 use super::Tracks;
@@ -42,6 +43,7 @@ pub(super) fn tracks(mut file: File, name: &str, scheme: &Scheme, how: How) -> R
         return findings.finish(None);
     };
     let mask = ProjectionMask::roots(builder.parquet_schema(), table.read.iter().copied());
+    unpackable(name, builder.metadata(), &mask)?;
     let builder = builder.with_projection(mask).with_batch_size(ROWS);
     let reader = Pages::of(builder).map_err(|error| wrong(&error))?;
     table.take(&findings, reader, &wrong)?;
@@ -65,6 +67,26 @@ pub(crate) fn whole_chunks(name: &str, about: &ParquetMetaData) -> Result<(), In
     };
     match chunks.find(wrong) {
         Some(chunk) => Err(broken(name, &format!("the place of {} is damaged", chunk.column_path()))),
+        None => Ok(()),
+    }
+}
+
+/// Makes sure that the columns of a mask are compressed by what is known here.
+pub(crate) fn unpackable(
+    name: &str,
+    about: &ParquetMetaData,
+    mask: &ProjectionMask,
+) -> Result<(), InputError> {
+    let chunks = about.row_groups().iter().flat_map(|group| group.columns().iter().enumerate());
+    let known = |by| matches!(by, Compression::UNCOMPRESSED | Compression::SNAPPY | Compression::ZSTD(_));
+    match chunks.filter(|(leaf, _)| mask.leaf_included(*leaf)).find(|(_, chunk)| !known(chunk.compression()))
+    {
+        Some((_, chunk)) => {
+            let by = chunk.compression().to_string();
+            let by = by.split('(').next().unwrap_or_default().to_lowercase();
+            let error = whole(name, format!("`{}` is compressed by {by}", chunk.column_path().string()));
+            Err(error.with_help("write it anew, or as CSV; compressed with zstd, snappy or not at all"))
+        }
         None => Ok(()),
     }
 }

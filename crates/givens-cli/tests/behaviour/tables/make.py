@@ -36,6 +36,7 @@ wrong = pa.table(
     }
 )
 pq.write_table(wrong, "wrong.parquet", compression="none")
+pq.write_table(whole, "gzip.parquet", compression={"time": "none", "track_id": "none", "z": "gzip"})
 floats = pa.table({"time": [0.0, 0.0], "track_id": pa.array([1.0, 2.0]), "z": [1.0, 2.0]})
 pq.write_table(floats, "float_ids.parquet", compression="none")
 blanks = pa.table({"time": [0.0, 0.0, 1.0, 1.0], "track_id": ["a", "b", "a ", " b"], "z": [1.0, 2.0, 3.0, 4.0]})

@@ -29,8 +29,8 @@ def main() -> None:
     ruler = gv.Sensor(position, measures=["position"], std=[0.2])
     prior = gv.Gaussian([1.0, 0.0], std=[0.5, 0.5])
 
-    # the drift is cubic: steps that are right for it are short
-    run: dict[str, Any] = {"prior": prior, "t0": 0.0, "max_step": 0.05}
+    # the drift is cubic: a solver finds the steps that are right for it
+    run: dict[str, Any] = {"prior": prior, "t0": 0.0, "method": "sr-cd-ckf2"}
     t = np.sort(np.random.default_rng(1).uniform(0.0, 60.0, 80))
     drawn = gv.simulate(model.with_params(stiffness=1.5), ruler, t, prior=prior, t0=0.0, seed=1)
 

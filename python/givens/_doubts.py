@@ -28,15 +28,15 @@ def place_of(track: Track, row: int | None, time: float, name: Any = None) -> st
 
 def doubtful(track: Track, doubt: _native._Doubt, name: Any = None) -> str:
     """A doubt about a row of this track."""
-    _, row, time, message, rows = doubt
+    _, row, time, message, rows, _ = doubt
     more = "" if rows == 1 else f" (the same of {rows} rows that were looked at)"
     return f"{place_of(track, row + track.before, time, name)}: {message}{more}"
 
 
-def warn(doubts: Iterable[str]) -> None:
-    """Warns of doubts at the line from which the package was called."""
+def warn(doubts: Iterable[tuple[str, bool]]) -> None:
+    """Warns of those doubts that are grave, at the line from which the package was called."""
     frame, level = sys._getframe(1), 2
     while frame.f_back is not None and frame.f_globals.get("__name__", "").startswith("givens."):
         frame, level = frame.f_back, level + 1
-    for doubt in doubts:
-        warnings.warn(doubt, DoubtWarning, stacklevel=level - 1)
+    for doubt in [doubt for doubt, grave in doubts if grave]:
+        warnings.warn(doubt, DoubtWarning, stacklevel=level)

@@ -38,8 +38,8 @@ VERSION: Final[str]
 _Array = NDArray[np.float64]
 _Kind = Literal["discrete", "continuous"]
 _Column = Literal["number", "whole", "date", "zoned", "duration", "text", "other"]
-# track, row, time, what is doubtful, and how many rows are for that reason
-_Doubt = tuple[int, int, float, str, int]
+# track, row, time, what is doubtful, how many rows are for that reason, and whether it is grave
+_Doubt = tuple[int, int, float, str, int, bool]
 _Goal = Literal["filter", "interval", "lag", "point"]
 # states, columns of controls, sensors with their measures, when the prior holds, the length of a step, the model's sum
 _Names = tuple[list[str], list[str], list[tuple[str, list[str]]], float | None, float | None, str]
@@ -118,7 +118,7 @@ class _Answered(TypedDict):
     log_likelihood: float
     seconds: float
     failed: list[tuple[str | None, str | None, str]]
-    doubts: list[str]
+    doubts: list[tuple[str, bool]]
 
 class _Tracks(TypedDict):
     tracks: list[_Track]

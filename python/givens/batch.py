@@ -47,8 +47,8 @@ class Batch(Stacked):
     failed : list of StepError
         Those that ended early; each names its track.
     doubts : tuple of str
-        Why rows may be wrong that no step has refused, each also told as a `DoubtWarning`. Of all tracks, once for each
-        reason; a part of a batch has none.
+        Why rows may be wrong that no step has refused, the grave ones also told as a `DoubtWarning`. Of all tracks,
+        once for each reason; a part of a batch has none.
     track_ids : list
         Names of the tracks, or their numbers.
 
@@ -84,7 +84,7 @@ class Batch(Stacked):
                 refuse_at(goal)
         times = [None if at is None else track.clock.wanted("at", at) for track in tracks]
         found: list[Any] = [None] * len(tracks)
-        doubts: list[str] = []
+        doubts: list[tuple[str, bool]] = []
         alike: dict[Goal, list[int]] = {}
         for k, goal in enumerate(goals):
             alike.setdefault(goal, []).append(k)
@@ -105,7 +105,8 @@ class Batch(Stacked):
                 found[k] = native
             for doubt in doubtfuls:
                 k = these[doubt[0]]
-                doubts.append(doubtful(tracks[k], doubt, k if tracks[k].id is None else tracks[k].id))
+                name = k if tracks[k].id is None else tracks[k].id
+                doubts.append((doubtful(tracks[k], doubt, name), doubt[-1]))
         estimates, failed = [], []
         for k, (track, native, goal, wanted) in enumerate(zip(tracks, found, goals, times, strict=True)):
             error = step_error(track, native, goal, k if track.id is None else track.id)
@@ -113,7 +114,7 @@ class Batch(Stacked):
                 failed.append(error)
             estimates.append(Estimates._of(track, native, goal, wanted, error))
         warn(doubts)
-        return cls(estimates, failed, doubts)
+        return cls(estimates, failed, [words for words, _ in doubts])
 
     @overload
     def __getitem__(self, index: int) -> Estimates: ...

@@ -15,8 +15,11 @@ __all__ = ["DoubtWarning", "GivensError", "InputError", "MethodError", "ModelErr
 
 
 class DoubtWarning(UserWarning):
-    """Answers that may be wrong, though no step of the filter has refused them: its steps of equal length were too long, or a
-    measurement has left of a covariance only what is rounding. The words say which, where, and what to do about it.
+    """Answers that may be wrong, though no step of the filter has refused them.
+
+    Steps of equal length were too long, so that a prediction moves by more than a twentieth of its standard deviation
+    where they are halved; or a measurement has left of a covariance only what is rounding. The words say which, where,
+    and what to do about it.
 
     Whoever would rather have an exception turns it into one: ``warnings.simplefilter("error", gv.DoubtWarning)``.
     """

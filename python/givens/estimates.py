@@ -63,8 +63,8 @@ class Estimates:
     failed : StepError or None
         Why the rows end before those of the data.
     doubts : tuple of str
-        Why rows may be wrong that no step has refused, each also told as a `DoubtWarning`; those of a batch are in
-        `Batch.doubts`.
+        Why rows may be wrong that no step has refused, the grave ones also told as a `DoubtWarning`; those of a batch
+        are in `Batch.doubts`.
 
     Examples
     --------

@@ -288,7 +288,8 @@ class BatchJob(Sent):
         capsule, said = table.answers(
             joined.native, choice, goal.word, goal.value, self.output, prior, unbegun, self.threads, path
         )
-        warn(said["doubts"] if path is None else [f"{path}: {doubt}" for doubt in said["doubts"]])
+        file = "" if path is None else f"{path}: "
+        warn((file + doubt, grave) for doubt, grave in said["doubts"])
         failed = tuple(_failed(*track, file=path) for track in said["failed"])
         return capsule, Summary(said["tracks"], said["rows"], said["log_likelihood"], failed, said["seconds"], 1)
 

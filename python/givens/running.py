@@ -203,5 +203,5 @@ def _run(tracks: list[Track], batch: bool, goals: list[Goal], at: Any, threads: 
     if error is not None:
         raise error
     estimates = Estimates._of(track, native, goal, wanted)
-    warn(estimates.doubts)
+    warn((words, doubt[-1]) for words, doubt in zip(estimates.doubts, native.doubts, strict=True))
     return estimates

@@ -135,6 +135,7 @@ LONG = {
 }
 
 
+@pytest.mark.filterwarnings("ignore::givens.DoubtWarning")
 @pytest.mark.parametrize("name", CALLS)
 def test_what_refuses_an_absurd_value_is_an_error_of_the_package(name):
     for value in VALUES:

@@ -13,6 +13,9 @@ import givens as gv
 
 distributed = pytest.importorskip("distributed")
 
+# some vessels are silent for half an hour, too long for sixteen steps
+pytestmark = pytest.mark.filterwarnings("ignore::givens.DoubtWarning")
+
 #: Copies of the vessels, and the files that they lie in.
 COPIES, FILES = 200, 20
 

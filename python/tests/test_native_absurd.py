@@ -97,9 +97,9 @@ def test_a_run_without_rows_is_empty() -> None:
 
 def test_a_batch_refuses_absurd_arguments() -> None:
     track = (m.discrete(), choose(None), MEAN, STD, 0.0, TIME, Z, None, None)
-    assert native.run_batch([]) == []
+    assert native.run_batch([]) == ([], [])
     for threads in (1, 7):
-        assert len(native.run_batch([track] * 3, threads=threads)) == 3
+        assert len(native.run_batch([track] * 3, threads=threads)[0]) == 3
     refused(lambda: native.run_batch([track], threads=0), "at least one thread")
     refused(lambda: native.run_batch([track], threads=-1))
     refused(lambda: native.run_batch([track[:5]]))  # type: ignore[list-item]

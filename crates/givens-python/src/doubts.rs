@@ -12,8 +12,8 @@ use crate::model::Moves;
 use crate::run::Job;
 use crate::watch::detached;
 
-/// Track, row, time, what is doubtful, and how many rows are for that reason.
-pub type Doubt = (usize, usize, f64, String, usize);
+/// Track, row, time, what is doubtful, how many rows are for that reason, and whether it is grave.
+pub type Doubt = (usize, usize, f64, String, usize, bool);
 
 /// What is doubtful about the outcomes of jobs.
 pub fn of(py: Python<'_>, jobs: &[Job], outcomes: &[Outcome]) -> Result<Vec<Doubt>> {
@@ -57,5 +57,5 @@ fn look(doubts: &mut Doubts, track: usize, job: &Job, outcome: &Outcome) {
 fn told(job: &Job, choice: &Choice, found: &Doubtful) -> Doubt {
     let Told { what, remedy, .. } = explained(&job.model, |explain| explain.doubt(choice, found));
     let message = remedy.map_or_else(|| what.clone(), |remedy| format!("{what}; {remedy}"));
-    (found.track, found.row, found.time, message, found.rows)
+    (found.track, found.row, found.time, message, found.rows, found.doubt.is_grave())
 }

@@ -6,6 +6,7 @@ mod columns;
 mod common;
 mod compare;
 mod continuous;
+mod doubts;
 mod failures;
 mod folders;
 mod gate;

@@ -159,7 +159,7 @@ struct Sum {
     rows: usize,
     log_likelihood: f64,
     failed: Vec<FailedTrack>,
-    doubts: Vec<String>,
+    doubts: Vec<(String, bool)>,
     begun: Instant,
 }
 

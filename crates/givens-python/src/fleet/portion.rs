@@ -32,8 +32,8 @@ pub struct Run<'a> {
 pub struct Come {
     pub answers: Vec<Answer>,
     pub failed: Vec<FailedTrack>,
-    /// What is doubtful about them, in words.
-    pub doubts: Vec<String>,
+    /// What is doubtful about them, in words, and whether it is grave.
+    pub doubts: Vec<(String, bool)>,
 }
 
 impl Run<'_> {
@@ -70,9 +70,9 @@ impl Run<'_> {
             outcomes.map_err(|ended| ended.raised)?.into_iter().map(|outcome| (outcome, None)).collect()
         };
         let (outcomes, raised): (Vec<Outcome>, Vec<Option<PyErr>>) = outcomes.into_iter().unzip();
-        for (k, row, time, message, count) in doubts::of(py, &jobs, &outcomes)? {
+        for (k, row, time, message, count, grave) in doubts::of(py, &jobs, &outcomes)? {
             let (track, begin) = (&tracks[of[k].0], of[k].1);
-            come.doubts.push(doubtful(track, begin.row + row, time, &message, count));
+            come.doubts.push((doubtful(track, begin.row + row, time, &message, count), grave));
         }
         for ((i, begin), (outcome, raised)) in of.into_iter().zip(outcomes.into_iter().zip(raised)) {
             let Outcome { estimates, failure, .. } = outcome;

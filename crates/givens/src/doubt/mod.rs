@@ -34,6 +34,12 @@ pub enum Doubt {
 }
 
 impl Doubt {
+    /// Whether it matters to most users: of steps, whether the prediction moves by more than a twentieth of a standard deviation.
+    #[must_use]
+    pub fn is_grave(&self) -> bool {
+        !matches!(self, Doubt::Steps { moved } if *moved <= 0.05)
+    }
+
     /// Its kind.
     fn kind(&self) -> usize {
         match self {

@@ -55,9 +55,11 @@ pub fn say(text: &str) {
     let _ = writeln!(io::stderr().lock(), "{text}");
 }
 
-/// A line about an answer that may be wrong.
-pub fn doubt(text: &str) {
-    say(&format!("doubt: {text}"));
+/// Lines about answers that may be wrong.
+pub fn doubt(texts: &[String]) {
+    for text in texts {
+        say(&format!("doubt: {text}"));
+    }
 }
 
 /// `1 row`, `2 rows`.

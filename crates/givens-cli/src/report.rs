@@ -88,7 +88,7 @@ pub fn closing(plan: &Plan, summary: &Summary) {
     if let Some(told) = summary.gated.told(plan, summary.rows) {
         say(&told);
     }
-    doubts::all(plan, &plan.choice, &summary.doubts).iter().for_each(|told| doubt(told));
+    doubt(&doubts::all(plan, &plan.choice, &summary.doubts));
     if let Some(accuracy) = &summary.accuracy {
         for line in accuracy_lines(&plan.model, accuracy) {
             say(&line);

@@ -31,8 +31,9 @@ pub fn compare(args: &CompareArgs) -> Result<(), Stop> {
     let mut table = vec![header(&plan, gated)];
     let (mut failures, mut doubts) = (Vec::new(), Vec::new());
     for (name, choice) in args.methods.iter().zip(&choices) {
-        let (line, failed, doubtful) = line(&plan, name.trim(), choice, gated, args.threads)?;
-        table.push(line);
+        let Line { cells, failures: failed, doubts: doubtful } =
+            line(&plan, name.trim(), choice, gated, args.threads)?;
+        table.push(cells);
         failures.extend(failed.into_iter().map(|failure| format!("{}: {failure}", name.trim())));
         doubts.extend(doubtful.into_iter().map(|told| format!("{}: {told}", name.trim())));
     }
@@ -42,7 +43,7 @@ pub fn compare(args: &CompareArgs) -> Result<(), Stop> {
     let side_by_side = if plan.tracks.tracks.len() > 1 { ", tracks side by side" } else { "" };
     let timed = "µs/row: the filter alone, once, without reading and writing";
     say(&format!("{}; {timed}{side_by_side}{pair}", count(rows, "row")));
-    doubts.iter().for_each(|told| doubt(told));
+    doubt(&doubts);
     if failures.is_empty() { Ok(()) } else { Err(Stop::failures(&failures)) }
 }
 
@@ -103,13 +104,20 @@ fn header(plan: &Plan, gated: bool) -> Vec<String> {
     header
 }
 
+/// A method's line of the table, and what is told below it.
+struct Line {
+    cells: Vec<String>,
+    failures: Vec<String>,
+    doubts: Vec<String>,
+}
+
 fn line(
     plan: &Plan,
     name: &str,
     choice: &Choice,
     gated: bool,
     threads: Option<NonZeroUsize>,
-) -> Result<(Vec<String>, Vec<String>, Vec<String>), Stop> {
+) -> Result<Line, Stop> {
     let manner = Manner { at: None, threads, whole: false, judged: false, counted: None };
     let run = |goal: Goal| {
         let goals = vec![goal; plan.tracks.tracks.len()];
@@ -153,7 +161,7 @@ fn line(
         line.push(pair(f.map(|f| f.nees / f.nees_dof), s.map(|s| s.nees / s.nees_dof)));
     }
     let doubts = doubts::all(plan, choice, &summary.doubts);
-    Ok((line, failures, doubts))
+    Ok(Line { cells: line, failures, doubts })
 }
 
 /// Columns as wide as their widest cell; the first one to the left, the others to the right.

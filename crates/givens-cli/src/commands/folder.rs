@@ -119,9 +119,9 @@ pub fn run(
         count(files.len() - come.refused.len(), "file"),
         Shown(come.log_likelihoods.values().sum()),
     ));
-    come.doubts.iter().for_each(|told| doubt(told));
+    doubt(&come.doubts);
     if come.doubtful > 1 {
-        doubt(&format!("{} have doubtful answers", count(come.doubtful, "file")));
+        doubt(&[format!("{} have doubtful answers", count(come.doubtful, "file"))]);
     }
     if come.refused.is_empty() {
         kept.into_iter().for_each(Checkpoint::remove);

@@ -9,3 +9,4 @@ pub mod methods;
 pub mod partition;
 pub mod reproduce;
 pub mod simulate;
+mod written;

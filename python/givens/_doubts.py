@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import sys
 import warnings
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -15,7 +17,20 @@ if TYPE_CHECKING:
     from givens import _native
     from givens._plan import Track
 
-__all__ = ["doubtful", "place_of", "warn"]
+__all__ = ["about", "doubtful", "place_of", "warn"]
+
+#: What warnings begin with; None: there are none.
+_ABOUT: ContextVar[str | None] = ContextVar("about", default="")
+
+
+@contextmanager
+def about(name: str | None) -> Iterator[None]:
+    """Warns of doubts by this name; without one not at all."""
+    before = _ABOUT.set(None if name is None else f"{name}: ")
+    try:
+        yield
+    finally:
+        _ABOUT.reset(before)
 
 
 def place_of(track: Track, row: int | None, time: float, name: Any = None) -> str:
@@ -38,5 +53,8 @@ def warn(doubts: Iterable[tuple[str, bool]]) -> None:
     frame, level = sys._getframe(1), 2
     while frame.f_back is not None and frame.f_globals.get("__name__", "").startswith("givens."):
         frame, level = frame.f_back, level + 1
+    name = _ABOUT.get()
+    if name is None:
+        return
     for doubt in [doubt for doubt, grave in doubts if grave]:
-        warnings.warn(doubt, DoubtWarning, stacklevel=level)
+        warnings.warn(name + doubt, DoubtWarning, stacklevel=level)

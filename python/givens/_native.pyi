@@ -24,6 +24,7 @@ __all__ = [
     "accuracy",
     "arrow_stream",
     "consistency",
+    "looked_for",
     "methods",
     "options",
     "read_tracks",
@@ -566,6 +567,9 @@ def run(
     `cov` is the covariance of the belief at `t0` (None: at the first row), or its standard deviations, length n.
     `goal_value` is the number of rows of a lag, or the time of a point.
     """
+
+def looked_for() -> float:
+    """Seconds that this thread has looked for doubts about its runs, since it was last asked."""
 
 def run_batch(
     tracks: Sequence[

@@ -13,6 +13,7 @@ import numpy.typing as npt
 from givens import _native
 from givens._arrays import Array
 from givens._capsules import framed
+from givens._doubts import about
 from givens._names import known_name
 from givens._scalars import mapping, shown
 from givens._truth import truth_of, truths_of
@@ -184,7 +185,8 @@ def compare(
         own = mapping("options", options.get(name), 'options={"sr-ukf": {"kappa": 0}}')
         arguments = {"prior": prior, "method": name, **common, **own}
         try:
-            run, seconds = _timed(model, sensors, t, z, arguments)
+            with about(name):
+                run, seconds = _timed(model, sensors, t, z, arguments)
         except (MethodError, TraceError) as error:
             if not _of_method(name, error):
                 raise
@@ -193,7 +195,8 @@ def compare(
             continue
         if seconds < _QUICK:
             # the first run has prepared the model's derivatives for all that follow
-            seconds = min(seconds, *(_timed(model, sensors, t, z, arguments)[1] for _ in range(2)))
+            with about(None):
+                seconds = min(seconds, *(_timed(model, sensors, t, z, arguments)[1] for _ in range(2)))
         found.append(_compared(name, run, seconds))
         found.state = run.state
     if refused is not None and all(one.estimates is None for one in found):
@@ -215,13 +218,15 @@ def _refused(name: str, error: InputError) -> Compared:
 
 
 def _timed(model: Any, sensors: Any, t: Any, z: Any, arguments: Mapping[str, Any]) -> tuple[Estimates | Batch, float]:
-    """A run as far as it goes, and the seconds it took."""
+    """A run as far as it goes, and the seconds it took, without those that it was looked at for doubts."""
+    _native.looked_for()
     begun = perf_counter()
     try:
         run: Estimates | Batch = filter(model, sensors, t, z, **arguments)
     except StepError as error:
         run = error.finished
-    return run, perf_counter() - begun
+    seconds = perf_counter() - begun
+    return run, seconds - _native.looked_for()
 
 
 def _compared(name: str, run: Estimates | Batch, seconds: float) -> Compared:

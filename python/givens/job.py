@@ -27,6 +27,8 @@ from givens.model_file import ModelFile
 
 __all__ = ["BatchJob", "FailedTrack", "FileJob", "Summary", "split_errors"]
 
+#: So many doubts about one table are told.
+_DOUBTS = 3
 _LAYOUTS = ("wide", "covariances", "tidy")
 _FORMATS = ("parquet", "csv", "jsonl")
 
@@ -288,8 +290,9 @@ class BatchJob(Sent):
         capsule, said = table.answers(
             joined.native, choice, goal.word, goal.value, self.output, prior, unbegun, self.threads, path
         )
-        file = "" if path is None else f"{path}: "
-        warn((file + doubt, grave) for doubt, grave in said["doubts"])
+        answers = "" if path is None else f"answers in {path}: "
+        doubts = [doubt for doubt in said["doubts"] if doubt[1]]
+        warn((answers + doubt, grave) for doubt, grave in doubts[:_DOUBTS])
         failed = tuple(_failed(*track, file=path) for track in said["failed"])
         return capsule, Summary(said["tracks"], said["rows"], said["log_likelihood"], failed, said["seconds"], 1)
 

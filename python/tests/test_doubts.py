@@ -49,6 +49,44 @@ def test_steps_of_a_solver_and_functions_of_python_are_looked_at_too():
     assert "or a solver that chooses them" in est.doubts[0]
 
 
+def test_a_longest_step_beyond_the_gap_is_halved_too():
+    with pytest.warns(gv.DoubtWarning, match="max_step="):
+        gv.filter(decay(40.0), SENSOR, T, Z, prior=PRIOR, max_step=5.0)
+
+
+def test_tracks_whose_parameters_make_them_stiff_are_found_among_others():
+    model = gv.Sde(lambda t, x, *, k=1.0: [-k * x[0]], diffusion=[1.0], state=["x"])
+    rates = np.where(np.arange(200) == 150, 40.0, 1.0)
+    with pytest.warns(gv.DoubtWarning, match="track 150, "):
+        gv.filter(model, SENSOR, T, np.stack([Z] * 200), prior=PRIOR, params={"k": rates})
+
+
+def test_a_forecast_behind_the_rows_is_looked_at():
+    short = 0.01 * T
+    assert quiet(lambda: gv.filter(decay(40.0), SENSOR, short, Z, prior=PRIOR)).doubts == ()
+    with pytest.warns(gv.DoubtWarning, match=r"row 5, t = 2: "):
+        gv.filter(decay(40.0), SENSOR, short, Z, prior=PRIOR, at=[0.02, 2.0])
+
+
+def test_what_a_function_raises_at_times_that_the_run_does_not_ask_for_is_no_doubt():
+    def drift(t, x):
+        if 32 * t % 1:
+            raise KeyError(t)
+        return [-x[0]]
+
+    model = gv.Sde(drift, diffusion=[1.0], state=["x"], trace=False)
+    options = {"method": "sr-cd-ckf2", "solver": "rk4", "substeps": 16}
+    est = quiet(lambda: gv.filter(model, SENSOR, T[:3], Z[:3], prior=PRIOR, **options))
+    assert est.doubts == ()
+
+
+def test_a_comparison_warns_once_by_the_name_of_the_method():
+    with pytest.warns(gv.DoubtWarning) as caught:
+        gv.compare(decay(40.0), SENSOR, T, Z, prior=PRIOR, methods=["sr-cd-ckf", "sr-cd-ckf2"])
+    (one,) = caught
+    assert str(one.message).startswith("sr-cd-ckf: row ")
+
+
 def test_steps_that_are_a_little_too_long_are_told_by_the_estimates_alone():
     est = quiet(lambda: gv.filter(decay(20.0), SENSOR, T, Z, prior=PRIOR))
     assert "with twice as many the prediction moves by 0.0" in est.doubts[0]
@@ -60,7 +98,7 @@ def test_a_doubt_is_right_about_how_far_halved_steps_move_a_prediction():
         est = gv.filter(model, SENSOR, T[:2], Z[:2], prior=PRIOR, t0=0.0)
     moved = float(est.doubts[0].split("moves by ")[1].split(" ")[0])
     found = []
-    for count in (16, 32):
+    for count in (16, 33):
         f = gv.Filter(model, SENSOR, prior=gv.Gaussian(est.mean[0], est.cov[0]), t0=0.0, substeps=count)
         f.predict(1.0)
         found.append((f.state.mean[0], f.state.cov[0, 0]))

@@ -7,13 +7,22 @@ use givens::registry::Choice;
 use givens::{Doubtful, Doubts, Estimates, Gap};
 use givens_io::Dynamics;
 
-/// Looks at rows of track `i`, the first of which is its row `from`.
-pub fn add(doubts: &mut Doubts, plan: &Plan, choice: &Choice, i: usize, from: usize, est: &Estimates) {
+/// Looks at rows of track `i`, the first of which is its row `from`, and at the times that were asked for besides.
+pub fn add(
+    doubts: &mut Doubts,
+    plan: &Plan,
+    choice: &Choice,
+    (i, from): (usize, usize),
+    est: &Estimates,
+    at: &Estimates,
+) {
     let begin = &plan.beginnings[i];
     if from == begin.row {
         doubts.begin(i, begin.time, &begin.prior);
     }
-    doubts.add(i, from, est, &mut |gap| halved(plan, choice, i, gap));
+    let halved = &mut |gap: &Gap| halved(plan, choice, i, gap);
+    doubts.add(i, from, est, halved);
+    doubts.ahead(at, halved);
 }
 
 /// How far halved steps move the prediction over a gap of track `i`.

@@ -169,10 +169,6 @@ impl Session {
             let at = failure::Failed { row: *row, error, set_out: &outcome.failed_at, finished };
             self.failures.push(at.told(plan, choice, i, goal));
         }
-        if manner.at.is_some() {
-            let estimates = kept(outcome.at, manner.whole);
-            self.at.push(Answer { estimates, ..Answer::default() });
-        }
         let mut row = begin.row;
         let from_first = matches!(goal, Goal::Point(_));
         if from_first {
@@ -181,7 +177,11 @@ impl Session {
             row += ran.saturating_sub(outcome.estimates.len());
         }
         let started = begin.started && row == begin.row;
-        self.sums.add(plan, choice, (i, row), goal, &outcome.estimates);
+        self.sums.add(plan, choice, (i, row), goal, &outcome.estimates, &outcome.at);
+        if manner.at.is_some() {
+            let estimates = kept(outcome.at, manner.whole);
+            self.at.push(Answer { estimates, ..Answer::default() });
+        }
         let estimates = kept(outcome.estimates, manner.whole);
         self.answers.push(Answer { estimates, row, started, from_first });
     }

@@ -201,7 +201,7 @@ impl<'p> Streaming<'p> {
     fn add(&mut self, finished: &Finished) {
         let Finished { first, estimates: est, at } = *finished;
         let from = self.plan.beginnings[0].row + first;
-        let truth = self.come.sums.add(self.plan, &self.plan.choice, (0, from), self.goal, est);
+        let truth = self.come.sums.add(self.plan, &self.plan.choice, (0, from), self.goal, est, at);
         if let Some((rows, times)) = &mut self.come.thinned {
             rows.add(est, truth.as_ref());
             for row in 0..at.len() {

@@ -33,7 +33,7 @@ impl Sums {
         Self { accuracy, innovations, doubts: Doubts::new(choice), ..Self::default() }
     }
 
-    /// Adds rows of track `i`, the first of which is its row `from`. Those of one track follow each other. The truth of each, if
+    /// Adds rows of track `i`, the first of which is its row `from`, and states `at` other times. Those of one track follow each other. The truth of each, if
     /// there is one.
     pub fn add(
         &mut self,
@@ -42,6 +42,7 @@ impl Sums {
         (i, from): (usize, usize),
         goal: Goal,
         est: &Estimates,
+        at: &Estimates,
     ) -> Option<Truth> {
         self.rows += est.len();
         est.log_likelihood.iter().for_each(|x| self.log_likelihood += x);
@@ -51,7 +52,7 @@ impl Sums {
             sums.add(i, from, est);
         }
         self.gated.add(i, from, est);
-        doubts::add(&mut self.doubts, plan, choice, i, from, est);
+        doubts::add(&mut self.doubts, plan, choice, (i, from), est, at);
         let truth = plan.truth_at(i, goal, est.time.iter().copied());
         if let (Some(sums), Some(truth)) = (&mut self.accuracy, &truth) {
             sums.add(&est.mean, &est.cov, &truth.states);

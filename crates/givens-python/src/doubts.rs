@@ -6,17 +6,39 @@ use givens::{Doubtful, Doubts, Gap, Outcome};
 use pyo3::exceptions::PyException;
 use pyo3::prelude::*;
 
+use core::cell::Cell;
+use core::time::Duration;
+use std::time::Instant;
+
 use crate::errors::Result;
 use crate::failure::explained;
 use crate::model::Moves;
 use crate::run::Job;
-use crate::watch::detached;
+use crate::watch::{detached, go_on};
 
 /// Track, row, time, what is doubtful, how many rows are for that reason, and whether it is grave.
 pub type Doubt = (usize, usize, f64, String, usize, bool);
 
+thread_local! {
+    /// How long this thread has looked for doubts.
+    static SPENT: Cell<Duration> = const { Cell::new(Duration::ZERO) };
+}
+
+/// Seconds that this thread has looked for doubts since it was last asked; see the stub.
+#[pyfunction]
+pub fn looked_for() -> f64 {
+    SPENT.take().as_secs_f64()
+}
+
 /// What is doubtful about the outcomes of jobs.
 pub fn of(py: Python<'_>, jobs: &[Job], outcomes: &[Outcome]) -> Result<Vec<Doubt>> {
+    let begun = Instant::now();
+    let found = all(py, jobs, outcomes);
+    SPENT.set(SPENT.get() + begun.elapsed());
+    found
+}
+
+fn all(py: Python<'_>, jobs: &[Job], outcomes: &[Outcome]) -> Result<Vec<Doubt>> {
     let mut all: Vec<(Choice, Doubts)> = Vec::new();
     for (track, (job, outcome)) in jobs.iter().zip(outcomes).enumerate() {
         let known = all.iter().position(|(choice, _)| *choice == job.choice);
@@ -49,9 +71,11 @@ fn look(doubts: &mut Doubts, track: usize, job: &Job, outcome: &Outcome) {
         let Moves::Continuous(moves) = &model.moves else { return None };
         // a control holds from its row to the next, the first one also before
         let controls = data.row(gap.row.saturating_sub(1))?.u;
-        choice.halved(moves, &model.sensing, controls, &[], gap)
+        // what a function of the user's raises at other times than those of the run says nothing
+        choice.halved(moves, &model.sensing, controls, &[], gap).filter(|_| go_on())
     };
     doubts.add(track, first, &outcome.estimates, halved);
+    doubts.ahead(&outcome.at, halved);
 }
 
 fn told(job: &Job, choice: &Choice, found: &Doubtful) -> Doubt {

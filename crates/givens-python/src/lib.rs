@@ -38,6 +38,8 @@ mod _native {
     #[pymodule_export]
     use crate::choice::{Choice, methods, options};
     #[pymodule_export]
+    use crate::doubts::looked_for;
+    #[pymodule_export]
     use crate::estimates::Estimates;
     #[pymodule_export]
     use crate::filter::Filter;

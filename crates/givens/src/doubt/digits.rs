@@ -3,10 +3,10 @@
 use super::Doubt;
 use crate::registry::{Choice, FormName};
 
-/// What is less than so many ε of a standard deviation in a root, or of a variance, times the number of states, is wrong by a
-/// share that matters when the rounding of it is left in.
-const SHRUNK: f64 = 1e2;
-/// The same of a variance given other states, whose rounding the others add to.
+/// What is less than so many ε of a standard deviation in a root, or of a variance, is wrong by a share that matters when the
+/// rounding of it is left in.
+const SHRUNK: f64 = 150.0;
+/// The same of a variance given other states, times their number, whose rounding they add to.
 const BOUND: f64 = 1e3;
 
 /// What of a row's covariances is rounding.
@@ -33,7 +33,7 @@ impl Digits {
     /// The first state whose variance is a rounding of what it was before the update.
     fn shrunk(self, predicted: &[f64], filtered: &[f64]) -> Option<usize> {
         let n = states(filtered);
-        let share = SHRUNK * n as f64 * self.epsilon;
+        let share = SHRUNK * self.epsilon;
         let share = if self.covariance { share } else { share * share };
         (0..n).map(|i| i * n + i).position(|at| filtered[at] < share * predicted[at])
     }

@@ -2,12 +2,14 @@
 
 mod digits;
 mod gap;
+mod watch;
 
 use crate::Estimates;
 use crate::filter::Gaussian;
 use crate::registry::Choice;
 use digits::Digits;
 pub use gap::Gap;
+use watch::Watch;
 
 /// Why an answer may be wrong, though each step of the filter had an answer.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -68,8 +70,9 @@ pub struct Doubtful {
 
 /// What is doubtful about the rows of a run, or of several: a second look at answers that no step of the filter has refused.
 ///
-/// Digits are looked at in every row. Steps of equal length are halved in few gaps, whatever the number of rows: at the 1st, 2nd, 4th, 8th and
-/// so on, and wherever a gap is half as long again as any before.
+/// Digits are looked at in every row. Steps of equal length are halved in few gaps, whatever the number of rows: in the 1st, 2nd,
+/// 4th, 8th and so on; in the first of each of the first 64 tracks; and wherever a gap is longer than any before by half, or a
+/// prediction widens a standard deviation, or moves a mean by more of them, twice as much as any before.
 ///
 /// ```
 /// use givens::filter::Gaussian;
@@ -96,22 +99,19 @@ pub struct Doubts {
     /// Whether the steps are of equal length.
     equal: bool,
     found: [Option<Doubtful>; 3],
-    /// Gaps so far, and the longest of those whose steps were halved.
-    gaps: (usize, f64),
+    watch: Watch,
     /// Behind the last row, and of which track it is.
     last: Option<(usize, Gap)>,
 }
 
 /// A prediction that moves by less is right.
 const MOVED: f64 = 1e-3;
-/// A gap that is so many times the longest so far is looked at.
-const LONGER: f64 = 1.5;
 
 impl Doubts {
     /// About answers of this method.
     #[must_use]
     pub fn new(choice: &Choice) -> Self {
-        Self { digits: Digits::of(choice), equal: choice.finer().is_some(), ..Self::default() }
+        Self { digits: Digits::of(choice), equal: choice.steps_are_equal(), ..Self::default() }
     }
 
     /// A track begins, with this belief at `time`.
@@ -132,11 +132,15 @@ impl Doubts {
         for k in 0..est.len() {
             let (row, time) = (first + k, est.time[k]);
             let at = |doubt| Doubtful { track, row, time, doubt, rows: 1 };
-            let before = k.checked_sub(1);
-            let from = begun.as_ref().map(|gap| gap.from).or_else(|| Some(est.time[before?]));
-            let looked_at = from.is_some_and(|from| self.equal && self.looks_at(time - from));
-            let gap = begun.take().or_else(|| before.filter(|_| looked_at).map(|row| stand(est, row)));
-            if let Some(moved) = gap.filter(|_| looked_at).and_then(|gap| halved(&gap.until(row, time)))
+            let before = k.checked_sub(1).filter(|_| self.equal);
+            let gap = begun.take().or_else(|| Some(stand(est, before?)));
+            if let Some(gap) = gap
+                && self.watch.notes(
+                    track,
+                    time - gap.from,
+                    gap.reach(est.predicted_mean(k), est.predicted_cov(k)),
+                )
+                && let Some(moved) = halved(&gap.until(row, time))
                 && moved > MOVED
             {
                 self.note(at(Doubt::Steps { moved }));
@@ -145,27 +149,25 @@ impl Doubts {
                 self.note(at(doubt));
             }
         }
-        let end = est.len().checked_sub(1).filter(|_| self.equal);
-        self.last = end.map(|end| (track, stand(est, end)));
+        if let Some(end) = est.len().checked_sub(1).filter(|_| self.equal) {
+            begun = Some(stand(est, end).until(first + end, est.time[end]));
+        }
+        self.last = begun.map(|gap| (track, gap));
+    }
+
+    /// Looks at the last of the times that were asked for besides, if it is behind the rows of the track that were added last.
+    pub fn ahead(&mut self, at: &Estimates, halved: &mut dyn FnMut(&Gap) -> Option<f64>) {
+        let Some(&time) = at.time.last() else { return };
+        let Some((track, gap)) = self.last.clone().filter(|(_, gap)| gap.from < time) else { return };
+        let row = gap.row + 1;
+        if let Some(moved) = halved(&gap.until(row, time)).filter(|moved| *moved > MOVED) {
+            self.note(Doubtful { track, row, time, doubt: Doubt::Steps { moved }, rows: 1 });
+        }
     }
 
     /// What was found: no more than one of each kind.
     pub fn found(&self) -> impl Iterator<Item = &Doubtful> {
         self.found.iter().flatten()
-    }
-
-    /// Whether the steps of one more gap are halved.
-    fn looks_at(&mut self, length: f64) -> bool {
-        let (count, longest) = &mut self.gaps;
-        if length <= 0.0 {
-            return false;
-        }
-        *count += 1;
-        let longer = length >= LONGER * *longest;
-        if longer {
-            *longest = length;
-        }
-        longer || count.is_power_of_two()
     }
 
     fn note(&mut self, new: Doubtful) {

@@ -480,7 +480,13 @@ def _with_errors(table: Any) -> Any:
     words = of.value_type if arrow.types.is_dictionary(of) else of
     if words not in (arrow.null(), arrow.string(), arrow.large_string(), arrow.string_view()):
         raise InputError(f"the column `error` holds {of}, not words", argument="table", remedy=remedy)
-    return table.set_column(place, "error", table["error"].cast(arrow.string()))
+    column = table["error"]
+    if arrow.types.is_dictionary(of):
+        # a dictionary of string views, as those of polars, has no cast of its own
+        words = [(chunk.indices, chunk.dictionary.cast(arrow.string())) for chunk in column.chunks]
+        plain = [arrow.DictionaryArray.from_arrays(*of_chunk) for of_chunk in words]
+        column = arrow.chunked_array(plain, arrow.dictionary(of.index_type, arrow.string()))
+    return table.set_column(place, "error", column.cast(arrow.string()))
 
 
 def _failed(track_id: str | None, time: str | None, said: str, file: str | None) -> FailedTrack:

@@ -68,6 +68,10 @@ impl Partition {
     pub fn write(&self, tables: &[PathBuf], folder: &Path) -> Result<Partitioned, InputErrors> {
         let told = folder.display().to_string();
         let failed = |error: std::io::Error| whole(&told, format!("cannot be written: {error}"));
+        if self.by == "time" {
+            let error = whole("--by time", "that is the column of times, which files of tracks have too");
+            return Err(error.with_help("name the column of tracks").into());
+        }
         crate::make_folder(folder).map_err(|error| whole(&told, error.to_string()))?;
         let there = [name(0), unfinished(&name(0))].into_iter().find(|name| folder.join(name).exists());
         if let Some(there) = there {
@@ -279,11 +283,18 @@ fn alike(tables: &[Table]) -> Result<SchemaRef, InputErrors> {
             );
             let error = whole(&table.name, what);
             return Err(error
-                .with_help("tables that are cut together have the same columns in one order")
+                .with_help(
+                    "tables that are cut together have the same columns in one order; one of a CSV holds words if any \
+                     of its cells is no number",
+                )
                 .into());
         }
     }
-    Ok(Arc::clone(&first.schema))
+    // what is missing in one table may be missing
+    let missing = |k: usize| tables.iter().any(|table| table.schema.field(k).is_nullable());
+    let fields = first.schema.fields().iter().enumerate();
+    let fields = fields.map(|(k, field)| Field::clone(field).with_nullable(missing(k))).collect::<Vec<_>>();
+    Ok(Arc::new(Schema::new_with_metadata(fields, first.schema.metadata().clone())))
 }
 
 /// The first row without a time.

@@ -54,6 +54,7 @@ def test_behind_a_failure_arrays_are_empty():
     assert (batch.nis_dof[1, row:] == 0).all() and (batch.nis_dof[0] == 1).all()
 
 
+@pytest.mark.filterwarnings("ignore::givens.DoubtWarning")
 def test_a_batch_at_other_times_is_its_tracks_at_them():
     batch = smoothed(t0=0.0)
     there = batch.at([0.7, 2.0, 30.0], threads=2)

@@ -79,7 +79,7 @@ fn doubts(page: &mut Page, plan: &Plan, found: &[Doubtful]) {
         page.say(Tone::Look, told);
     }
     if told.is_empty() {
-        page.say(Tone::Good, "No digits were lost, and no step was too long, where that was looked at.");
+        page.say(Tone::Plain, "No digits were lost, and no step was too long, where that was looked at.");
     }
 }
 

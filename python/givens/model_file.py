@@ -27,7 +27,7 @@ __all__ = ["ModelFile", "parse_model", "read_model"]
 class ModelFile(Batched):
     """A model file: model, sensors, prior or start, and method.
 
-    `read_model` and `parse_model` make it; a function that takes a model and its sensors takes it with None for the sensors.
+    `read_model` and `parse_model` make it; a function that takes a model and its sensors takes it, and None for these.
 
     Attributes
     ----------

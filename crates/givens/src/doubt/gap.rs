@@ -4,7 +4,7 @@ use crate::filter::Gaussian;
 use crate::filter::predict::Variant;
 use crate::model::{Observation, Sde};
 use crate::ode::Steps;
-use crate::registry::{Choice, Precision, TimeName};
+use crate::registry::{Choice, Precision};
 
 /// A gap before a row, and the belief with which it begins.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,14 +20,17 @@ pub struct Gap {
     cov: Vec<f64>,
 }
 
-impl Gap {
-    /// One that begins with this belief.
-    pub(super) fn from(from: f64, mean: &[f64], cov: &[f64]) -> Self {
-        Self { row: 0, from, to: from, mean: mean.to_vec(), cov: cov.to_vec() }
-    }
+/// What is believed when a gap begins.
+#[derive(Clone, Copy)]
+pub(super) struct Stand<'a> {
+    pub from: f64,
+    pub mean: &'a [f64],
+    pub cov: &'a [f64],
+}
 
-    /// By how much, at most, a prediction over it widens a standard deviation, and moves a mean in standard deviations.
-    pub(super) fn reach(&self, mean: &[f64], cov: &[f64]) -> [f64; 2] {
+impl Stand<'_> {
+    /// By how much, at most, a prediction from here widens a standard deviation, and moves a mean in standard deviations.
+    pub fn reach(self, mean: &[f64], cov: &[f64]) -> [f64; 2] {
         let n = mean.len();
         let (mut wider, mut moved) = (0.0, 0.0);
         for i in 0..n {
@@ -40,22 +43,20 @@ impl Gap {
         [wider, moved]
     }
 
-    /// The same, up to a row.
-    pub(super) fn until(self, row: usize, to: f64) -> Self {
-        Self { row, to, ..self }
+    /// The gap from here to a row.
+    pub fn until(self, row: usize, to: f64) -> Gap {
+        Gap { row, from: self.from, to, mean: self.mean.to_vec(), cov: self.cov.to_vec() }
+    }
+}
+
+impl Gap {
+    /// Where it begins.
+    pub(super) fn stand(&self) -> Stand<'_> {
+        Stand { from: self.from, mean: &self.mean, cov: &self.cov }
     }
 }
 
 impl Choice {
-    /// Whether a gap is divided into steps of equal length.
-    pub(super) fn steps_are_equal(&self) -> bool {
-        match self.time_update {
-            TimeName::Transition => false,
-            TimeName::ItoTaylor | TimeName::EulerMaruyama => true,
-            TimeName::MomentOde | TimeName::LevelSet => !self.integrator.solver.adaptive(),
-        }
-    }
-
     /// The same with twice as many steps in a gap, and one more: a period that all steps hit is not hit by these. Rounding is not
     /// asked about: both are in double precision. The Itô–Taylor step with one noise for the whole gap is not finer for having
     /// more of them: in its place comes the simplified one.

@@ -9,6 +9,7 @@ use crate::filter::Gaussian;
 use crate::registry::Choice;
 use digits::Digits;
 pub use gap::Gap;
+use gap::Stand;
 use watch::Watch;
 
 /// Why an answer may be wrong, though each step of the filter had an answer.
@@ -116,7 +117,8 @@ impl Doubts {
 
     /// A track begins, with this belief at `time`.
     pub fn begin(&mut self, track: usize, time: f64, prior: &Gaussian) {
-        self.last = self.equal.then(|| (track, Gap::from(time, prior.mean(), prior.cov())));
+        let stand = Stand { from: time, mean: prior.mean(), cov: prior.cov() };
+        self.last = self.equal.then(|| (track, stand.until(0, time)));
     }
 
     /// Looks at rows of a track, the first of which is its row `first`; those of one track follow each other. `halved` is asked how far a prediction
@@ -128,39 +130,39 @@ impl Doubts {
         est: &Estimates,
         halved: &mut dyn FnMut(&Gap) -> Option<f64>,
     ) {
-        let mut begun = self.last.take().filter(|(of, _)| *of == track).map(|(_, gap)| gap);
+        let begun = self.last.take().filter(|(of, _)| *of == track);
         for k in 0..est.len() {
             let (row, time) = (first + k, est.time[k]);
             let at = |doubt| Doubtful { track, row, time, doubt, rows: 1 };
-            let before = k.checked_sub(1).filter(|_| self.equal);
-            let gap = begun.take().or_else(|| Some(stand(est, before?)));
-            if let Some(gap) = gap
-                && self.watch.notes(
-                    track,
-                    time - gap.from,
-                    gap.reach(est.predicted_mean(k), est.predicted_cov(k)),
-                )
-                && let Some(moved) = halved(&gap.until(row, time))
-                && moved > MOVED
-            {
-                self.note(at(Doubt::Steps { moved }));
+            let stand = match k.checked_sub(1) {
+                Some(before) => self.equal.then(|| behind(est, before)),
+                None => begun.as_ref().map(|(_, gap)| gap.stand()),
+            };
+            if let Some(stand) = stand {
+                let reach = stand.reach(est.predicted_mean(k), est.predicted_cov(k));
+                if self.watch.notes(track, time - stand.from, reach)
+                    && let Some(moved) = halved(&stand.until(row, time))
+                    && moved > MOVED
+                {
+                    self.note(at(Doubt::Steps { moved }));
+                }
             }
             for doubt in self.digits.lost(est.predicted_cov(k), est.filtered_cov(k)) {
                 self.note(at(doubt));
             }
         }
-        if let Some(end) = est.len().checked_sub(1).filter(|_| self.equal) {
-            begun = Some(stand(est, end).until(first + end, est.time[end]));
-        }
-        self.last = begun.map(|gap| (track, gap));
+        self.last = match est.len().checked_sub(1) {
+            Some(end) => self.equal.then(|| (track, behind(est, end).until(first + end, est.time[end]))),
+            None => begun,
+        };
     }
 
     /// Looks at the last of the times that were asked for besides, if it is behind the rows of the track that were added last.
     pub fn ahead(&mut self, at: &Estimates, halved: &mut dyn FnMut(&Gap) -> Option<f64>) {
         let Some(&time) = at.time.last() else { return };
-        let Some((track, gap)) = self.last.clone().filter(|(_, gap)| gap.from < time) else { return };
-        let row = gap.row + 1;
-        if let Some(moved) = halved(&gap.until(row, time)).filter(|moved| *moved > MOVED) {
+        let Some((track, gap)) = self.last.as_ref().filter(|(_, gap)| gap.from < time) else { return };
+        let (track, row) = (*track, gap.row + 1);
+        if let Some(moved) = halved(&gap.stand().until(row, time)).filter(|moved| *moved > MOVED) {
             self.note(Doubtful { track, row, time, doubt: Doubt::Steps { moved }, rows: 1 });
         }
     }
@@ -186,7 +188,7 @@ impl Doubts {
     }
 }
 
-/// The belief after a row, before a gap.
-fn stand(est: &Estimates, row: usize) -> Gap {
-    Gap::from(est.time[row], est.filtered_mean(row), est.filtered_cov(row))
+/// What is believed behind a row.
+fn behind(est: &Estimates, row: usize) -> Stand<'_> {
+    Stand { from: est.time[row], mean: est.filtered_mean(row), cov: est.filtered_cov(row) }
 }

@@ -85,12 +85,7 @@ impl Explain<'_> {
 
     /// What equal steps in continuous time may have done besides.
     fn too_long(&self, choice: Option<&Choice>) -> String {
-        let equal = choice.is_some_and(|choice| match choice.time_update {
-            TimeName::ItoTaylor | TimeName::EulerMaruyama => true,
-            TimeName::MomentOde | TimeName::LevelSet => !choice.integrator.solver.adaptive(),
-            TimeName::Transition => false,
-        });
-        if !equal {
+        if !choice.is_some_and(Choice::steps_are_equal) {
             return String::new();
         }
         let set = |key, value| self.face.set(key, value);

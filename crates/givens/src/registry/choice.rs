@@ -67,6 +67,16 @@ impl Choice {
         self.time_update.kind()
     }
 
+    /// Whether a solver chooses the steps in a gap.
+    pub const fn adapts(&self) -> bool {
+        self.time_update.solves() && self.integrator.solver.adaptive()
+    }
+
+    /// Whether a gap is divided into steps of equal length.
+    pub const fn steps_are_equal(&self) -> bool {
+        matches!(self.kind(), Kind::Continuous) && !self.adapts()
+    }
+
     /// Whether the method serves models of this kind.
     ///
     /// # Errors
@@ -113,7 +123,7 @@ impl Choice {
             }
             TimeName::EulerMaruyama | TimeName::MomentOde => {}
         }
-        let adaptive = self.time_update.solves() && self.integrator.solver.adaptive();
+        let adaptive = self.adapts();
         if self.time_update.solves() {
             all.push(("solver", self.integrator.solver.name().to_owned()));
         }

@@ -53,7 +53,6 @@ impl Reader {
     /// Whether `choice` is among them.
     pub fn reads(self, choice: &Choice) -> bool {
         let time = choice.time_update;
-        let adaptive = time.solves() && choice.integrator.solver.adaptive();
         match self {
             Reader::Every => true,
             Reader::Rule(rule) => choice.rule == rule,
@@ -61,8 +60,8 @@ impl Reader {
             Reader::Time(of) => time == of,
             Reader::Continuous => time != TimeName::Transition,
             Reader::Solver => time.solves(),
-            Reader::EqualSteps => time != TimeName::Transition && !adaptive,
-            Reader::AdaptiveSolver => adaptive,
+            Reader::EqualSteps => choice.steps_are_equal(),
+            Reader::AdaptiveSolver => choice.adapts(),
         }
     }
 

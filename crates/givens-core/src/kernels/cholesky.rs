@@ -68,7 +68,7 @@ fn factorise<T: Real>(a: &mut [T], n: usize, rounding: f64, scale: impl Fn(usize
         for (i, below) in tail.chunks_exact_mut(n).take(n - j - 1).enumerate() {
             let rest = less_dot(below[j], &row[..j], below);
             if vanishes {
-                // |P_ij|² ≤ P_ii P_jj: a zero pivot forces a zero column, to the rounding of both
+                // |P_ij|² ≤ P_ii P_jj: a zero pivot forces a zero column, to its own rounding and the size of the other
                 let own = below[j + 1 + i];
                 let bound = (rounding.abs() * (own.abs() + scale(j + 1 + i, own).abs())).sqrt();
                 health.note(nothing & !rest.abs().le(bound), j);

@@ -61,3 +61,23 @@ fn triangle_is_same<T: Real>(a: &[T], b: &[T], n: usize) -> bool {
     });
     true
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{cholesky_again, kept_root};
+
+    #[test]
+    fn a_root_is_worked_out_once() {
+        let mut kept = [0.0; kept_root(2)];
+        let root = |kept: &mut [f64], p: [f64; 4]| {
+            let mut p = p;
+            assert!(cholesky_again(&mut p, 2, kept).failed().is_none());
+            p
+        };
+        assert_eq!(root(&mut kept, [4.0, 0.0, 2.0, 5.0]), [2.0, 0.0, 1.0, 2.0]);
+        // what is kept is what comes back, until the triangle is another
+        kept[4..].fill(7.0);
+        assert_eq!(root(&mut kept, [4.0, 1.0, 2.0, 5.0]), [7.0; 4]);
+        assert_eq!(root(&mut kept, [4.0, 1.0, 2.0, 10.0]), [2.0, 0.0, 1.0, 3.0]);
+    }
+}

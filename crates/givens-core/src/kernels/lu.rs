@@ -153,6 +153,25 @@ mod tests {
     }
 
     #[test]
+    fn a_pivot_is_the_largest_of_its_column_against_the_length_of_its_row() {
+        const N: usize = 7;
+        for seed in 0..50 {
+            let full = matrix::<N>(seed);
+            let (mut a, mut order) = (full.concat(), [0.0; lu_order(N)]);
+            assert!(lu(&mut a, N, &mut order).failed().is_none());
+            let mut lengths = full.map(|row| row.iter().map(|x| x * x).sum::<f64>().sqrt());
+            for (k, &other) in order[..N].iter().enumerate() {
+                lengths.swap(k, other as usize);
+            }
+            // L below the diagonal: what was left of its column, against the pivot
+            for (i, k) in (0..N).flat_map(|i| (0..i).map(move |k| (i, k))) {
+                let against = a[i * N + k].abs() * lengths[k] / lengths[i];
+                assert!(against < 1.0 + 1e-12, "seed {seed}: {i} {k} {against}");
+            }
+        }
+    }
+
+    #[test]
     fn a_row_that_depends_on_the_others_is_a_zero_pivot_and_large_units_are_not() {
         let mut order = [0.0; 6];
         let thirds = [1.0 / 3.0, 0.7, 1e8, 0.1, -0.3, 2e8, 1.0 / 3.0 + 0.1, 0.4, 3e8];

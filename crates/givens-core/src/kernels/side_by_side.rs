@@ -80,3 +80,56 @@ pub(super) fn scatter(
         lane += 4;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{gather, scatter};
+
+    const SIDE: usize = 8;
+
+    /// Element (i, j) of rows of length `size`, each of its own.
+    fn numbered(height: usize, size: usize) -> Vec<f64> {
+        (0..height * size).map(|k| 1.0 + k as f64).collect()
+    }
+
+    #[test]
+    fn rows_stand_side_by_side_and_lanes_left_over_are_zero() {
+        for (height, size) in (0..=SIDE).flat_map(|height| (1..12).map(move |size| (height, size))) {
+            let rows = numbered(height, size);
+            for columns in [0..size, size / 2..size, 0..size / 2] {
+                let mut lanes = [7.0; 12 * SIDE];
+                gather(&rows, size, height, &mut lanes, columns.clone(), SIDE);
+                for (j, lane) in (0..12).flat_map(|j| (0..SIDE).map(move |lane| (j, lane))) {
+                    let expected = match (columns.contains(&j), lane < height) {
+                        (true, true) => rows[lane * size + j],
+                        (true, false) => 0.0,
+                        _ => 7.0,
+                    };
+                    assert_eq!(
+                        lanes[j * SIDE + lane],
+                        expected,
+                        "{height} × {size}, {columns:?}: {j} {lane}"
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn lanes_go_back_to_the_rows_that_are_told() {
+        for size in 1..12 {
+            let lanes = numbered(size, SIDE);
+            for (from, to) in (0..=SIDE).flat_map(|to| (0..=to).map(move |from| (from, to))) {
+                for columns in [size, size / 2] {
+                    let mut rows = vec![0.5; SIDE * size];
+                    scatter(&mut rows, size, &lanes, from, to, columns, SIDE);
+                    for (i, j) in (0..SIDE).flat_map(|i| (0..size).map(move |j| (i, j))) {
+                        let told = (from..to).contains(&i) && j < columns;
+                        let expected = if told { lanes[j * SIDE + i] } else { 0.5 };
+                        assert_eq!(rows[i * size + j], expected, "{from}..{to} of {size}: {i} {j}");
+                    }
+                }
+            }
+        }
+    }
+}

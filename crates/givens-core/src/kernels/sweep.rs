@@ -158,5 +158,7 @@ fn drop_row<T: Real>(a: &mut [T], d: usize, n: usize, q: usize) {
             a[i * size + p] = c * x + s * y;
             a[i * size + q] = c * y - s * x;
         }
+        // of its own element a rounding may be left
+        a[p * size + q] = T::zero();
     }
 }

@@ -7,7 +7,7 @@ use crate::scalar::{Grain, Job, LANES, NARROW, Pack, Real, floats_mut};
 /// The fewest columns of S for which that pays, by measurement.
 const FEWEST: usize = 12;
 
-/// Scalars of scratch of [`sweep`](super::sweep()).
+/// Scalars of scratch of [`sweep`](super::sweep()): 2 n where n is small, or where there are no packs.
 #[must_use]
 pub const fn sweep_scratch(d: usize, n: usize) -> usize {
     if n < FEWEST || LANES == 1 {
@@ -91,5 +91,70 @@ impl Job<f64> for Sweep<'_> {
             }
         }
         rotations.done
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{FEWEST, LANES, NARROW, sweep_in_lanes, sweep_scratch};
+
+    /// How many rows are absorbed of [L D; 0 S], given L and D.
+    fn absorbed(d: usize, n: usize, of: impl Fn(usize, usize) -> f64) -> usize {
+        let size = d + n;
+        let below = |i: usize, j: usize| f64::from(i == j);
+        let at = |i: usize, j: usize| if i < d { of(i, j) } else { below(i, j) };
+        let mut a: Vec<f64> = (0..size * size).map(|k| at(k / size, k % size)).collect();
+        let more = |spare| vec![0.0; sweep_scratch(d, n) + spare];
+        let mut again = a.clone();
+        let absorbed = sweep_in_lanes(&mut a, d, n, &mut more(0));
+        assert_eq!(
+            sweep_in_lanes(&mut again, d, n, &mut more(7)),
+            absorbed,
+            "with more scratch than it takes"
+        );
+        absorbed
+    }
+
+    #[test]
+    fn a_machine_with_registers_absorbs_all_rows_in_them() {
+        if LANES == 1 || !NARROW.available() {
+            return;
+        }
+        for (d, n) in [(1, FEWEST), (2, FEWEST), (5, 20), (8, 13), (9, 30), (20, 33)] {
+            for unit in [1.0, 2_f64.powi(-350), 2_f64.powi(350)] {
+                let of = |i: usize, j: usize| match (j < d, i == j) {
+                    (true, true) => 2.0 * unit,
+                    (true, false) if j > i => 0.0,
+                    _ => unit * crate::scalar::Real::sin((7 * i + 3 * j + i * j) as f64),
+                };
+                assert_eq!(absorbed(d, n, of), d, "{d}, {n} in {unit:e}");
+            }
+        }
+    }
+
+    #[test]
+    fn few_columns_take_two_scalars_each() {
+        assert_eq!(sweep_scratch(5, FEWEST - 1), 2 * (FEWEST - 1));
+    }
+
+    #[test]
+    fn a_row_stops_it_of_which_nothing_is_left() {
+        if LANES == 1 || !NARROW.available() {
+            return;
+        }
+        for (d, n) in [(8, 20), (20, 13)] {
+            for lost in [1, 2, d - 1] {
+                // L is the unit matrix but for row `lost`, of which the first column has 1 and its own what is left
+                let stops = |left: f64| {
+                    absorbed(d, n, |i, j| match (i == lost, i == j) {
+                        (true, true) => left,
+                        (true, false) => f64::from(j == 0),
+                        (false, own) => f64::from(own),
+                    })
+                };
+                let bound = (d + n) as f64 * f64::EPSILON;
+                assert_eq!((stops(0.5 * bound), stops(2.0 * bound)), (lost, d), "{lost} of {d}, {n}");
+            }
+        }
     }
 }

@@ -10,7 +10,7 @@ outlined! {
     /// Tria(A): the lower-triangular S with S Sᵀ = A Aᵀ and diagonal ≥ 0, in place (docs/algorithms.md §2).
     ///
     /// `a` holds `rows` × `columns` in rows of length `stride` ≥ max(rows, columns); S ends in its first `rows`
-    /// columns, zeros behind it. What is left of a row after the earlier reflections and is at most
+    /// columns, zeros behind it to the end of each row. What is left of a row after the earlier reflections and is at most
     /// `columns` ε of the row counts as zero: that column of S is zero and uses up no reflection, so that the factor of a
     /// deficient A can be divided by. A pack whose lanes disagree on that reports those with the zero as sick; so are lanes
     /// with a row whose squares overflow. Where its products with others do, S is not finite.

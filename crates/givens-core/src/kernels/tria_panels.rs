@@ -25,7 +25,7 @@ impl Job<f64> for Panels<'_> {
             return 0;
         }
         for row in a.chunks_exact_mut(stride).take(rows) {
-            row[columns..columns.next_multiple_of(P::WIDTH)].fill(0.0);
+            row[columns..].fill(0.0);
         }
         let mut end = 0;
         for first in (0..rows).step_by(PANEL) {
@@ -283,4 +283,14 @@ fn dot<P: Pack<Element = f64>>(v: &[f64], x: &[f64]) -> P {
         sum = P::load(v).mul_add(P::load(x), sum);
     }
     sum
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn the_zeros_that_rows_end_with_are_left_out() {
+        let row = [1.0, 0.0, -2.0, 0.0, 0.0];
+        assert_eq!([0, 3, 4, 5].map(|above| super::reach(&row, above)), [3, 3, 4, 5]);
+        assert_eq!((super::reach(&[0.0; 4], 0), super::reach(&[0.0, f64::NAN], 0)), (0, 2));
+    }
 }

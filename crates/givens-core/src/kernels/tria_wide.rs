@@ -167,3 +167,67 @@ fn dot<P: Pack<Element = f64>, const K: usize>(v: &[P; K], x: &[P; K]) -> f64 {
     }
     (sums[0] + sums[1]).sum()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{LANES, NARROW, tria_in_packs};
+
+    /// Numbers between −1 and 1 in rows of whole packs.
+    fn mixed(rows: usize, columns: usize, unit: f64) -> (Vec<f64>, usize) {
+        let stride = columns.max(rows).next_multiple_of(LANES);
+        let at = |k: usize| unit * crate::scalar::Real::sin(1.0 + (k * k) as f64 * 0.7);
+        ((0..rows * stride).map(at).collect(), stride)
+    }
+
+    #[test]
+    fn a_machine_with_registers_does_all_rows_in_them() {
+        if LANES == 1 || !NARROW.available() {
+            return;
+        }
+        // both kernels; lengths at which one ends and the other begins
+        for (rows, columns) in [
+            (1, 1),
+            (1, 9),
+            (3, 4),
+            (7, 22),
+            (32, 45),
+            (32, 48),
+            (1, 49),
+            (30, 90),
+            (33, 33),
+            (34, 40),
+            (41, 43),
+        ] {
+            for unit in [1.0, 2_f64.powi(-200), 2_f64.powi(400)] {
+                for spare in [0, 3] {
+                    let (mut a, stride) = mixed(rows + spare, columns, unit);
+                    let done = tria_in_packs(&mut a, rows, columns, stride);
+                    assert_eq!(done, rows, "{rows} × {columns} in {unit:e}, {spare} rows behind");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_row_stops_it_that_the_ones_above_leave_nothing_of() {
+        if LANES == 1 || !NARROW.available() {
+            return;
+        }
+        for (rows, columns) in [(7, 22_usize), (34, 60)] {
+            for lost in [1, 2, rows - 2, rows - 1] {
+                // a unit matrix but for row `lost`, of which the first column has 1 and its own what is left
+                let stops = |left: f64| {
+                    let stride = columns.next_multiple_of(LANES);
+                    let mut a = vec![0.0; rows * stride];
+                    for i in 0..rows {
+                        a[i * stride + i] = if i == lost { left } else { 1.0 };
+                    }
+                    a[lost * stride] = 1.0;
+                    tria_in_packs(&mut a, rows, columns, stride)
+                };
+                let bound = columns as f64 * f64::EPSILON;
+                assert_eq!((stops(0.5 * bound), stops(2.0 * bound)), (lost, rows), "{lost} of {rows}");
+            }
+        }
+    }
+}

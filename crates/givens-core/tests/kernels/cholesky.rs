@@ -130,3 +130,20 @@ fn a_root_that_is_kept_is_that_of_the_covariance_at_hand() {
         }
     }
 }
+
+#[test]
+fn a_root_of_any_size_is_kept() {
+    for n in [1, 3, 4] {
+        let mut kept = vec![0.0; kept_root(n)];
+        // whole numbers, whose squares and roots are exact
+        let of = |times: f64| {
+            let s = Matrix::new(n, n, |i, j| if j <= i { times * (1 + i + j) as f64 } else { 0.0 });
+            (s.outer().data, s.data)
+        };
+        for times in [1.0, 1.0, 2.0, 2.0, 1.0] {
+            let (mut p, s) = of(times);
+            assert!(cholesky_again(&mut p, n, &mut kept).failed().is_none());
+            assert_eq!(p, s, "{n}");
+        }
+    }
+}

@@ -7,7 +7,9 @@
 )]
 
 mod cholesky;
+mod cholesky_bounds;
 mod downdate;
+mod downdate_bounds;
 mod faint;
 mod matrix;
 mod product;

@@ -181,10 +181,31 @@ fn rows_below_those_that_are_told_stay_as_they_are() {
     for (n, k) in [(3, 5), (6, 21), (20, 60), (21, 60), (22, 60), (23, 60), (40, 70)] {
         let full = mixed(n + 5, k);
         for stride in [k.next_multiple_of(4), k.next_multiple_of(4) + 1] {
-            let mut memory = full.memory::<f64>(stride, 7.0);
-            let stated = memory.clone();
+            leaves_those_below::<f64>(&full, n, stride);
+            leaves_those_below::<f32>(&full, n, stride);
+        }
+    }
+}
+
+fn leaves_those_below<T: Real + PartialEq>(a: &Matrix, n: usize, stride: usize) {
+    let mut memory = a.memory::<T>(stride, 7.0);
+    let stated = memory.clone();
+    assert!(tria(&mut memory, n, a.columns, stride).failed().is_none());
+    assert_eq!(memory[n * stride..], stated[n * stride..], "{n} × {} in {stride}", a.columns);
+}
+
+#[test]
+fn what_stands_behind_a_row_does_not_matter_and_is_zero_after() {
+    for (n, k) in [(1, 3), (3, 3), (4, 1), (5, 4), (6, 18), (20, 59), (33, 42), (40, 30), (40, 170)] {
+        let a = mixed(n, k);
+        for stride in 0..9 {
+            let stride = n.max(k) + stride;
+            let mut memory = a.memory::<f64>(stride, 7.0);
             assert!(tria(&mut memory, n, k, stride).failed().is_none());
-            assert_eq!(memory[n * stride..], stated[n * stride..], "{n} × {k} in {stride}");
+            let whole = Matrix::of(n, stride, &memory, stride);
+            assert!(is_factor(&whole), "{n} × {k} in {stride}");
+            let error = apart(&whole.outer(), &a.outer(), |i| a.norm(i)) / f64::EPSILON;
+            assert!(error < 8.0 * (n * k) as f64, "{n} × {k} in {stride}: {error}");
         }
     }
 }

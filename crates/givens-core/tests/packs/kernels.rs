@@ -1,7 +1,7 @@
 //! The kernels on packs, lane by lane as on floats.
 
 use super::every_set::{Check, every_pack};
-use givens_core::kernels::{cholesky, solve_lower, sweep, sweep_scratch, tria};
+use givens_core::kernels::{Health, cholesky, solve_lower, sweep, sweep_scratch, tria};
 use givens_core::scalar::{InstructionSet, Mask, Pack, Real};
 
 /// Reproducible numbers in (−1, 1), others for every lane and element. (Squares: multiples alone would make rows that
@@ -39,27 +39,35 @@ fn alike<P: Pack>(
 struct Kernels;
 impl Check for Kernels {
     fn holds<P: Pack>(_: InstructionSet) {
-        let (n, k) = (7, 22);
         let well = |health: P::Mask| !health.any();
-        alike::<P>(n * k, noise, |a| well(tria(a, n, k, k).sick), |a| !tria(a, n, k, k).sick);
+        // rows of whole packs too, of which one matrix of floats would be several side by side
+        for (n, k) in [(7, 22), (7, 24), (3, 4)] {
+            alike::<P>(n * k, noise, |a| well(tria(a, n, k, k).sick), |a| !tria(a, n, k, k).sick);
+        }
         // a lower factor with a good diagonal
         let factor = |l: usize, i: usize, n: usize| match (i / n, i % n) {
             (row, column) if row == column => 1.5 + 0.5 * noise(l, i),
             (row, column) if row > column => 0.4 * noise(l, i),
             _ => 0.0,
         };
-        let (d, n) = (3, 5);
-        let size = d + n;
-        let block = move |l: usize, i: usize| {
-            let (row, column) = (i / size, i % size);
-            if row < d && column >= d { noise(l, i) } else { factor(l, i, size) }
-        };
-        alike::<P>(
-            size * size,
-            block,
-            |a| well(sweep(a, d, n, &mut vec![P::zero(); sweep_scratch(d, n)]).sick),
-            |a| !sweep(a, d, n, &mut vec![P::Element::zero(); sweep_scratch(d, n)]).sick,
-        );
+        for (d, n) in [(3, 5), (3, 13)] {
+            let size = d + n;
+            let block = move |l: usize, i: usize| {
+                let (row, column) = (i / size, i % size);
+                match (row < d, column < d) {
+                    (true, false) => noise(l, i),
+                    (false, true) => 0.0,
+                    _ => factor(l, i, size),
+                }
+            };
+            alike::<P>(
+                size * size,
+                block,
+                |a| well(sweep(a, d, n, &mut vec![P::zero(); sweep_scratch(d, n)]).sick),
+                |a| !sweep(a, d, n, &mut vec![P::Element::zero(); sweep_scratch(d, n)]).sick,
+            );
+        }
+        let n = 5;
         let covariance = move |l: usize, i: usize| -> f64 {
             let (row, column) = (i / n, i % n);
             (0..n).map(|j| factor(l, row * n + j, n) * factor(l, column * n + j, n)).sum()
@@ -156,4 +164,68 @@ impl Check for OneSick {
 #[test]
 fn a_lane_that_fails_leaves_its_neighbours_alone() {
     every_pack::<OneSick>();
+}
+
+struct Told;
+impl Check for Told {
+    fn holds<P: Pack>(_: InstructionSet) {
+        // of every four lanes one failed at pivot 2 and later at 5, one at 2, one at 5, and one not at all
+        let lanes = |failed: [f64; 4]| {
+            let of: Vec<P::Element> = (0..P::WIDTH).map(|l| P::Element::of(failed[l % 4])).collect();
+            P::zero().lt(P::load(&of))
+        };
+        let (mut first, mut later) = (Health::<P>::good(), Health::<P>::good());
+        first.note(lanes([1.0, 1.0, 0.0, 0.0]), 2);
+        later.note(lanes([1.0, 0.0, 1.0, 0.0]), 5);
+        for (health, pivots) in [
+            (first, [Some(2.0), Some(2.0), None, None]),
+            (first.and(later), [Some(2.0), Some(2.0), Some(5.0), None]),
+            (later.and(first), [Some(5.0), Some(2.0), Some(5.0), None]),
+            (first.and(later).shifted(3), [Some(5.0), Some(5.0), Some(8.0), None]),
+            (first.and(later).shifted(3).shifted(4), [Some(9.0), Some(9.0), Some(12.0), None]),
+        ] {
+            let sick = P::select(health.sick, P::one(), P::zero());
+            for (l, pivot) in (0..P::WIDTH).map(|l| (l, pivots[l % 4])) {
+                assert_eq!(sick.lane(l).first() == 1.0, pivot.is_some(), "lane {l}");
+                assert!(pivot.is_none_or(|pivot| health.pivot.lane(l).first() == pivot), "lane {l}");
+            }
+            assert_eq!(
+                health.failed(),
+                if P::WIDTH == 1 { pivots[0].map(|pivot| pivot as usize) } else { None }
+            );
+        }
+    }
+}
+
+#[test]
+fn lanes_are_told_with_the_pivot_at_which_they_failed_first() {
+    every_pack::<Told>();
+}
+
+struct ItsOwnRounding;
+impl Check for ItsOwnRounding {
+    fn holds<P: Pack>(_: InstructionSet) {
+        // [1 1; 1 1 + δ]: a pivot of nothing, of too little and of less than nothing, in other units in every lane
+        let bound = 64.0 * 2.0 * P::EPSILON * 4.0;
+        let kinds = [0.5, 2.0, -0.5, -2.0];
+        let made = |of: &dyn Fn(f64, f64) -> f64| {
+            let lane = |l: usize| P::Element::of(of(kinds[l % 4] * bound, 2_f64.powi([-20, 0, 20][l % 3])));
+            P::load(&(0..P::WIDTH).map(lane).collect::<Vec<_>>())
+        };
+        let unit = made(&|_, unit| unit);
+        let mut a = [unit, unit, unit, made(&|rest, unit| unit * (1.0 + rest))];
+        let health = cholesky(&mut a, 2);
+        for l in 0..P::WIDTH {
+            let sick = P::select(health.sick, P::one(), P::zero()).lane(l).first() == 1.0;
+            assert_eq!(sick, l % 4 == 3, "lane {l}");
+            if !sick {
+                assert_eq!(a[3].lane(l).first() > 0.0, l % 4 == 1, "lane {l}: {:?}", a[3]);
+            }
+        }
+    }
+}
+
+#[test]
+fn each_lane_is_judged_by_its_own_rounding() {
+    every_pack::<ItsOwnRounding>();
 }

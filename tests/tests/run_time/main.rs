@@ -7,6 +7,7 @@ mod coverage;
 mod factors;
 mod gate;
 mod gate_limits;
+mod lanes;
 mod neighbours;
 mod packs;
 mod samples;

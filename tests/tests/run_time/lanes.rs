@@ -133,11 +133,10 @@ fn tracks() -> Vec<Data> {
     (0..3 * kinds.len()).map(one).collect()
 }
 
-fn every_lane_is_as_alone(
-    name: &str,
-    data: &[Data],
-    run: &dyn Fn(&[Track<'_, Plant, Eye>], &Batch) -> Vec<Outcome>,
-) -> usize {
+/// All tracks by one method.
+type Runs<'a> = &'a dyn Fn(&[Track<'_, Plant, Eye>], &Batch) -> Vec<Outcome>;
+
+fn every_lane_is_as_alone(name: &str, data: &[Data], run: Runs<'_>) -> usize {
     let prior = Gaussian::from_std(&[1.0, 2.0], &[0.8, 0.6]).unwrap();
     let tracks: Vec<Track<'_, Plant, Eye>> =
         data.iter().map(|data| Track::new(&Plant, &Eye, data, &prior)).collect();

@@ -7,6 +7,7 @@ mod dependencies;
 mod embedded;
 mod finding;
 mod instructions;
+mod mutants;
 mod reproduction;
 mod rust_text;
 mod step;
@@ -30,6 +31,9 @@ const USAGE: &str = "usage:
   cargo xtask instructions [--bless | --where-valgrind-is]
                       counts the instructions of fixed work under valgrind, against benchmarks/instructions.toml; without
                       valgrind an error, or nothing
+  cargo xtask mutants [--again] GROUP | page
+                      small faults in the code, and whether a test sees them; survivors are tried again, or the records of
+                      all groups put into docs/mutation.md
   cargo xtask dependencies
                       licences and sources of all crates, against deny.toml; where cargo-deny is installed, known weaknesses
   cargo xtask embedded
@@ -47,6 +51,9 @@ fn main() -> ExitCode {
         ["dependencies"] => dependencies::run(&root()),
         ["stress"] => stress::run(&root()),
         ["embedded"] => embedded::run(&root()),
+        ["mutants", "page"] => mutants::write_page(&root()),
+        ["mutants", group] => mutants::run(&root(), group, false),
+        ["mutants", "--again", group] => mutants::run(&root(), group, true),
         ["instructions"] => instructions::run(&root(), false),
         ["instructions", "--where-valgrind-is"] => !instructions::can() || instructions::run(&root(), false),
         ["instructions", "--bless"] => instructions::run(&root(), true),

@@ -1,7 +1,7 @@
 //! Smoothers against each other and against what they may not do.
 
 use crate::{apart, run};
-use givens::registry::FormName;
+use givens::registry::{FormName, RuleName};
 use givens::{Estimates, Goal};
 use givens_tests::cases;
 use givens_tests::choices::choices;
@@ -36,7 +36,14 @@ proptest! {
         let problem = Problem::random(seed, n, d, 6, 0.1);
         let nothing = vec![0.0; n * n];
         for (name, choice) in choices(n) {
-            let est = run(&choice, &problem, Goal::Interval);
+            // weights below zero may take more than there is, which is an error
+            let takes = choice.rule == RuleName::Unscented && n > 3;
+            let outcome =
+                choice.run(&problem.model, &problem.sensor, problem.rows(), 0.0, &problem.prior(), Goal::Interval, &[]);
+            if takes && outcome.failure.as_ref().is_some_and(|(_, error)| error.to_string().contains("not positive definite")) {
+                continue;
+            }
+            let est = outcome.into_result().unwrap();
             for k in 0..est.len() {
                 for cov in [est.predicted_cov(k), est.filtered_cov(k), est.cov(k)] {
                     let mirrored = |at: usize| cov[at % n * n + at / n];

@@ -112,8 +112,8 @@ fn compile(
     cargo.env("CARGO_TARGET_DIR", root.join("target/mutants/build"));
     // what a constant asks is asked of the compiler, which stable Rust cannot tell apart
     cargo.env("RUSTC_BOOTSTRAP", "1").env("RUSTFLAGS", "--cap-lints allow");
-    // all methods with all their mutants are more than an optimiser has memory for
-    cargo.env("CARGO_PROFILE_DEV_DEBUG", "0").env("CARGO_PROFILE_DEV_OPT_LEVEL", "0");
+    cargo.env("CARGO_PROFILE_DEV_DEBUG", "0");
+    cargo.env("CARGO_PROFILE_DEV_OPT_LEVEL", if stage.optimised { "1" } else { "0" });
     let out = cargo.output().map_err(|error| format!("cargo cannot be run: {error}"))?;
     let text = String::from_utf8_lossy(&out.stdout);
     let messages: Vec<Value> = text.lines().filter_map(|line| serde_json::from_str(line).ok()).collect();

@@ -16,8 +16,8 @@ use std::time::Instant;
 /// Kilobytes that a mutant may take: some ask for memory without end.
 const MEMORY: usize = 6_000_000;
 
-/// Bytes of a thread's stack: a function has room for the numbers of all its mutants.
-const STACK: &str = "268435456";
+/// A stack of 256 MiB, for a function has room for the numbers of all its mutants; and random cases that are always the same.
+const SAME: [(&str, &str); 2] = [("RUST_MIN_STACK", "268435456"), ("PROPTEST_RNG_SEED", "1")];
 
 /// A test program and what was seen of it without a mutant.
 struct Program<'b> {
@@ -77,11 +77,7 @@ fn note(built: &Built, path: &Path, folder: &Path) -> Result<(BTreeSet<u32>, Dur
     let _ = std::fs::remove_file(&notes);
     let start = Instant::now();
     let mut command = Command::new(path);
-    command
-        .current_dir(folder)
-        .env("MUTANT", "note")
-        .env("MUTANTS_ASKED", &notes)
-        .env("RUST_MIN_STACK", STACK);
+    command.current_dir(folder).env("MUTANT", "note").env("MUTANTS_ASKED", &notes).envs(SAME);
     let out = command.output().map_err(|error| format!("{}: {error}", path.display()))?;
     if !out.status.success() {
         let words = String::from_utf8_lossy(&out.stdout);
@@ -110,7 +106,7 @@ fn outcome(programs: &[Program], number: u32) -> Result<Outcome, String> {
 fn try_one(program: &Program, number: u32) -> Result<Option<bool>, String> {
     let mut command = Command::new("sh");
     command.args(["-c", &format!("ulimit -v {MEMORY}; exec \"$0\" -q")]).arg(program.path);
-    command.current_dir(program.folder).env("MUTANT", number.to_string()).env("RUST_MIN_STACK", STACK);
+    command.current_dir(program.folder).env("MUTANT", number.to_string()).envs(SAME);
     // what a property found wrong with a mutant is not to be kept
     command.env("PROPTEST_FAILURE_PERSISTENCE", "off").process_group(0);
     command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());

@@ -13,11 +13,20 @@ use std::process::Command;
 /// The built test programs.
 #[derive(Debug)]
 pub struct Built {
-    /// In the order in which they are asked: name, program, and the folder that it is run in.
-    pub programs: Vec<(String, PathBuf, PathBuf)>,
+    /// In the order in which they are asked.
+    pub programs: Vec<Program>,
     pub unviable: BTreeSet<u32>,
     /// By the number that a function asks with, its mutants.
     pub functions: BTreeMap<u32, Vec<u32>>,
+}
+
+#[derive(Debug)]
+pub struct Program {
+    pub name: String,
+    pub arguments: Vec<String>,
+    pub path: PathBuf,
+    /// The folder that it is run in.
+    pub folder: PathBuf,
 }
 
 pub fn build(root: &Path, group: &Group, stage: &Stage, mutants: &[&Mutant]) -> Result<Built, String> {
@@ -89,7 +98,7 @@ fn weave_files(
 }
 
 enum Compiled {
-    Programs(Vec<(String, PathBuf, PathBuf)>),
+    Programs(Vec<Program>),
     /// The mutants that do not compile.
     Wrong(BTreeSet<u32>),
 }
@@ -102,7 +111,7 @@ fn compile(
 ) -> Result<Compiled, String> {
     let mut cargo = Command::new("cargo");
     cargo.current_dir(copy).args(["test", "-j1", "--no-run", "--message-format=json", "-p", stage.package]);
-    for &program in stage.programs {
+    for program in stage.programs.iter().filter_map(|program| program.split(' ').next()) {
         if program == stage.package {
             cargo.arg("--lib");
         } else {
@@ -147,11 +156,7 @@ fn of(span: &Value, woven: &HashMap<String, Woven>) -> Option<u32> {
     own.or_else(|| of(span["expansion"].get("span")?, woven))
 }
 
-fn programs(
-    copy: &Path,
-    stage: &Stage,
-    messages: &[Value],
-) -> Result<Vec<(String, PathBuf, PathBuf)>, String> {
+fn programs(copy: &Path, stage: &Stage, messages: &[Value]) -> Result<Vec<Program>, String> {
     let find = |program: &str| {
         messages.iter().find_map(|message| {
             let manifest = Path::new(message["manifest_path"].as_str()?);
@@ -165,10 +170,11 @@ fn programs(
         })
     };
     let mut programs = Vec::new();
-    for &program in stage.programs {
-        let (path, folder) =
-            find(program).ok_or_else(|| format!("{} {program}: no program", stage.package))?;
-        programs.push((program.to_owned(), path, folder));
+    for program in stage.programs {
+        let mut words = program.split(' ').map(str::to_owned);
+        let name = words.next().unwrap_or_default();
+        let (path, folder) = find(&name).ok_or_else(|| format!("{} {name}: no program", stage.package))?;
+        programs.push(Program { name, arguments: words.collect(), path, folder });
     }
     Ok(programs)
 }

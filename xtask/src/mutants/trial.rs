@@ -1,6 +1,6 @@
 //! Mutants are switched on, one a run, until a test program fails.
 
-use super::build::Built;
+use super::build::{Built, Program};
 use super::list::Mutant;
 use super::outcome::Outcome;
 use crate::say;
@@ -8,7 +8,6 @@ use core::sync::atomic::{AtomicUsize, Ordering};
 use core::time::Duration;
 use std::collections::BTreeSet;
 use std::os::unix::process::CommandExt;
-use std::path::Path;
 use std::process::{Command, Stdio};
 use std::sync::mpsc;
 use std::time::Instant;
@@ -20,10 +19,8 @@ const MEMORY: usize = 6_000_000;
 const SAME: [(&str, &str); 2] = [("RUST_MIN_STACK", "268435456"), ("PROPTEST_RNG_SEED", "1")];
 
 /// A test program and what was seen of it without a mutant.
-struct Program<'b> {
-    name: &'b str,
-    path: &'b Path,
-    folder: &'b Path,
+struct Judge<'b> {
+    program: &'b Program,
     /// The mutants whose functions it runs.
     asked: BTreeSet<u32>,
     limit: Duration,
@@ -35,22 +32,22 @@ pub fn all(
     mutants: &[&Mutant],
     mut keep: impl FnMut(&Mutant, Outcome) -> Result<(), String>,
 ) -> Result<(), String> {
-    let programs = built.programs.iter().map(|(name, path, folder)| {
-        let (asked, took) = note(built, path, folder)?;
-        say(&format!("{name}: {:.1} s, runs {} mutants' functions", took.as_secs_f64(), asked.len()));
-        let limit = Duration::from_secs(20) + took * 6;
-        Ok(Program { name, path, folder, asked, limit })
+    let judges = built.programs.iter().map(|program| {
+        let (asked, took) = note(built, program)?;
+        let (name, count) = (&program.name, asked.len());
+        say(&format!("{name}: {:.1} s, runs {count} mutants' functions", took.as_secs_f64()));
+        Ok(Judge { program, asked, limit: Duration::from_secs(20) + took * 6 })
     });
-    let programs: Vec<Program> = programs.collect::<Result<_, String>>()?;
+    let judges: Vec<Judge> = judges.collect::<Result<_, String>>()?;
     let next = AtomicUsize::new(0);
     let (sender, outcomes) = mpsc::channel();
     let workers = std::thread::available_parallelism().map_or(1, usize::from);
     std::thread::scope(|scope| {
         for _ in 0..workers {
-            let (sender, next, programs) = (sender.clone(), &next, &programs);
+            let (sender, next, judges) = (sender.clone(), &next, &judges);
             scope.spawn(move || {
                 while let Some(&mutant) = mutants.get(next.fetch_add(1, Ordering::Relaxed)) {
-                    if sender.send((mutant, outcome(programs, mutant.number))).is_err() {
+                    if sender.send((mutant, outcome(judges, mutant.number))).is_err() {
                         return;
                     }
                 }
@@ -72,16 +69,22 @@ pub fn all(
 }
 
 /// Runs a program without a mutant: whose functions it asks, and how long it takes.
-fn note(built: &Built, path: &Path, folder: &Path) -> Result<(BTreeSet<u32>, Duration), String> {
-    let notes = path.with_extension("asked");
+fn note(built: &Built, program: &Program) -> Result<(BTreeSet<u32>, Duration), String> {
+    let notes = program.path.with_extension("asked");
     let _ = std::fs::remove_file(&notes);
     let start = Instant::now();
-    let mut command = Command::new(path);
-    command.current_dir(folder).env("MUTANT", "note").env("MUTANTS_ASKED", &notes).envs(SAME);
-    let out = command.output().map_err(|error| format!("{}: {error}", path.display()))?;
+    let mut command = Command::new(&program.path);
+    command
+        .args(&program.arguments)
+        .current_dir(&program.folder)
+        .env("MUTANT", "note")
+        .env("MUTANTS_ASKED", &notes)
+        .envs(SAME);
+    let path = program.path.display();
+    let out = command.output().map_err(|error| format!("{path}: {error}"))?;
     if !out.status.success() {
         let words = String::from_utf8_lossy(&out.stdout);
-        return Err(format!("{} fails without a mutant:\n{words}", path.display()));
+        return Err(format!("{path} fails without a mutant:\n{words}"));
     }
     let told = std::fs::read_to_string(&notes).unwrap_or_default();
     let first = told.lines().filter_map(|line| line.parse::<u32>().ok());
@@ -89,24 +92,26 @@ fn note(built: &Built, path: &Path, folder: &Path) -> Result<(BTreeSet<u32>, Dur
     Ok((asked, start.elapsed()))
 }
 
-fn outcome(programs: &[Program], number: u32) -> Result<Outcome, String> {
+fn outcome(judges: &[Judge], number: u32) -> Result<Outcome, String> {
     let mut asked = false;
-    for program in programs.iter().filter(|program| program.asked.contains(&number)) {
+    for judge in judges.iter().filter(|judge| judge.asked.contains(&number)) {
         asked = true;
-        match try_one(program, number)? {
+        match try_one(judge, number)? {
             Some(true) => {}
-            Some(false) => return Ok(Outcome::Fell(program.name.to_owned())),
-            None => return Ok(Outcome::Endless(program.name.to_owned())),
+            Some(false) => return Ok(Outcome::Fell(judge.program.name.clone())),
+            None => return Ok(Outcome::Endless(judge.program.name.clone())),
         }
     }
     Ok(if asked { Outcome::Survives } else { Outcome::NotAsked })
 }
 
 /// Whether the program passes; nothing if it does not end.
-fn try_one(program: &Program, number: u32) -> Result<Option<bool>, String> {
+fn try_one(judge: &Judge, number: u32) -> Result<Option<bool>, String> {
+    let program = judge.program;
     let mut command = Command::new("sh");
-    command.args(["-c", &format!("ulimit -v {MEMORY}; exec \"$0\" -q")]).arg(program.path);
-    command.current_dir(program.folder).env("MUTANT", number.to_string()).envs(SAME);
+    command.args(["-c", &format!("ulimit -v {MEMORY}; exec \"$0\" -q \"$@\"")]);
+    command.arg(&program.path).args(&program.arguments).current_dir(&program.folder);
+    command.env("MUTANT", number.to_string()).envs(SAME);
     // what a property found wrong with a mutant is not to be kept
     command.env("PROPTEST_FAILURE_PERSISTENCE", "off").process_group(0);
     command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
@@ -117,7 +122,7 @@ fn try_one(program: &Program, number: u32) -> Result<Option<bool>, String> {
         if let Some(status) = child.try_wait().map_err(told)? {
             return Ok(Some(status.success()));
         }
-        if start.elapsed() > program.limit {
+        if start.elapsed() > judge.limit {
             child.kill().map_err(told)?;
             child.wait().map_err(told)?;
             return Ok(None);
